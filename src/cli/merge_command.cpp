@@ -45,8 +45,8 @@ struct MergeArguments {
 /// be a crop; other ones are tiles of the whole image.
 bool is_whole(const MergedParts& merged, std::uint32_t spp_requested) {
     const RenderState& state = merged.sum.state;
-    const PixelRect all{0, 0, state.film.full_width(), state.film.full_height()};
-    return state.spp_done >= spp_requested && (merged.has_one_window || state.film.window() == all);
+    return state.spp_done >= spp_requested &&
+           (merged.has_one_window || state.film.window() == state.film.splat_window());
 }
 
 /// Warns of the samples that are missing before and behind those of the parts, and of a common window of the parts that
@@ -56,7 +56,7 @@ void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
     const std::uint32_t end = state.first_sample + merged.spp_span;
     if (state.first_sample > 0) log_warning("note: no part has samples 0 to {}", state.first_sample - 1);
     if (end < spp_requested) log_warning("note: no part has samples {} to {}", end, spp_requested - 1);
-    const PixelRect all{0, 0, state.film.full_width(), state.film.full_height()};
+    const PixelRect& all = state.film.splat_window();
     if (!merged.has_one_window && state.film.window() != all)
         log_warning("note: the parts have the pixels {} of {}", text_of(state.film.window()), text_of(all));
 }

@@ -9,6 +9,7 @@
 #include "session/progress_display.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -45,13 +46,12 @@ RenderOptions small_options(const Variant& variant) {
     RenderOptions options = variant.sampling;
     const double scale = std::min(1.0, static_cast<double>(kStrategyWidth) / options.window.width());
     const auto scaled = [scale](int pixels) { return std::max(1, static_cast<int>(pixels * scale)); };
-    const auto corner = [scale](int pixels) { return static_cast<int>(pixels * scale); };
+    const auto corner = [scale](int pixels) { return static_cast<int>(std::floor(pixels * scale)); };
+    const PixelRect& window = variant.sampling.window;
     options.full_width = scaled(options.full_width);
     options.full_height = scaled(options.full_height);
-    const int x0 = std::min(corner(options.window.x0), options.full_width - 1);
-    const int y0 = std::min(corner(options.window.y0), options.full_height - 1);
-    options.window = {x0, y0, std::min(options.full_width, x0 + scaled(options.window.width())),
-                      std::min(options.full_height, y0 + scaled(options.window.height()))};
+    options.window =
+        moved_to({0, 0, scaled(window.width()), scaled(window.height())}, corner(window.x0), corner(window.y0));
     options.spp = kStrategySpp;
     options.time_limit_seconds = 0.0;
     return options;

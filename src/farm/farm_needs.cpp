@@ -79,7 +79,7 @@ TaskNeeds with_safety(double seconds, double bytes) {
 FilmSize film_size_of(const SceneDesc& scene) {
     const RenderOptions options = make_render_options(scene.settings);
     const bool has_splats = create_integrator(scene.settings)->makes_splats();
-    const auto all = PixelRect{0, 0, options.full_width, options.full_height}.area();
+    const std::size_t all = scene.settings.film.frame().area();
     ProblemList ignored;  // the tasks will say them
     const AovPlan aovs = make_aov_plan(scene, ignored);
     FilmSize size{.pixels = options.window.area(),

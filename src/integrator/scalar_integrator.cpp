@@ -61,6 +61,7 @@ class ScalarWave final : public IntegratorScratch {
         alpha_.resize(count);
         generate_camera_rays(world, job, first, samples_, rays_);
         intersect_batch(world, job, RayKind::Primary, rays_, hits_, counters);
+        hide_unseen_hits(world, rays_, hits_);
         find_first_hits(world, job, samples_, rays_, hits_, tile);
         lamps_.note(samples_, rays_, hits_, counters);
         found_.reset(count, job, counters.brightest.threshold());

@@ -68,7 +68,6 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         {"oiio:ColorSpace", space},
         {"PixelAspectRatio", frame.pixel_aspect},
         {"worldToCamera", exr_world_to_camera(frame.world_to_camera)},
-        {"worldToNDC", exr_world_to_ndc(frame.world_to_screen)},
         {"etendue:scene", frame.scene},
         {"etendue:integrator", frame.integrator},
         {"etendue:sampler", frame.sampler},
@@ -77,6 +76,7 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         {"etendue:complete", frame.complete ? 1 : 0},
         {"etendue:haltReason", frame.halt_reason},
     };
+    if (frame.world_to_screen) attributes.push_back({"worldToNDC", exr_world_to_ndc(*frame.world_to_screen)});
     if (!frame.settings.empty()) attributes.push_back({"etendue:settings", frame.settings});
     // How long it took is never the same twice, nor need the names of files be: files that are to have the same bytes
     // do not tell.

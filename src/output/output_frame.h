@@ -55,7 +55,8 @@ struct OutputFrame {
     bool aces_container = false;  ///< the EXR follows SMPTE ST 2065-4
 
     Mat4f world_to_camera;  ///< the camera looks along -Z with +Y up
-    Mat4f world_to_screen;  ///< projective; x right and y up in [-1, 1] over the full image
+    /// Projective; x right and y up in [-1, 1] over the full image. None of a panoramic camera.
+    std::optional<Mat4f> world_to_screen;
 
     std::string camera;           ///< its name
     float focal_length = 0.0f;    ///< millimetres; 0 if it is not known

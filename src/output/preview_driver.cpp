@@ -1,12 +1,32 @@
 #include "output/preview_driver.h"
 
 #include "core/error.h"
+#include "core/pixel_rect.h"
 #include "image/write.h"
 #include "output/display_image.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace etendue {
+
+namespace {
+
+/// Returns the pixels of the frame that lie within the image; nothing if all of them do, or none.
+std::optional<ImageF> without_overscan(const OutputFrame& frame) {
+    const ImageF& all = frame.pixels;
+    const PixelRect data = moved_to({0, 0, all.width, all.height}, frame.crop_x, frame.crop_y);
+    const PixelRect shown = intersection(data, {0, 0, frame.full_width, frame.full_height});
+    if (frame.full_width == 0 || shown == data || shown.empty()) return {};
+    ImageF part(shown.width(), shown.height(), all.channels);
+    for (int y = shown.y0; y < shown.y1; ++y)
+        for (int x = shown.x0; x < shown.x1; ++x)
+            std::ranges::copy(all.pixel(x - data.x0, y - data.y0), part.pixel(x - shown.x0, y - shown.y0).begin());
+    return part;
+}
+
+}  // namespace
 
 PreviewDriver::PreviewDriver(std::filesystem::path path, ColorConfig config)
     : path_(std::move(path)), config_(std::move(config)) {}
@@ -19,7 +39,8 @@ void PreviewDriver::write(const OutputFrame& frame) {
     options.depth = PixelDepth::UInt8;
     options.attributes = display_attributes(view);
     options.attributes.push_back({"etendue:scene", frame.scene});
-    write_image(path_, display_image(frame.pixels, view, config_), options);
+    const std::optional<ImageF> part = without_overscan(frame);
+    write_image(path_, display_image(part ? *part : frame.pixels, view, config_), options);
 }
 
 }  // namespace etendue

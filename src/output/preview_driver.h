@@ -8,7 +8,8 @@
 
 namespace etendue {
 
-/// An 8-bit RGB PNG of the frame over black, through its exposure, display and view. Only the crop window is written.
+/// An 8-bit RGB PNG of the frame over black, through its exposure, display and view. Only the crop window is written,
+/// and of one that goes beyond the image, what lies within.
 class PreviewDriver final : public OutputDriver {
   public:
     PreviewDriver(std::filesystem::path path, ColorConfig config);

@@ -160,6 +160,7 @@ class Planner {
         check_names();
         finish_expressions();
         finish_fireflies();
+        set_.frames_of_shutter = static_cast<float>((settings.shutter.close - settings.shutter.open) * settings.fps);
         plan_.set = std::make_shared<AovSet>(std::move(set_));
         return std::move(plan_);
     }

@@ -48,7 +48,7 @@ Json to_object(const OutputFrame& f) {
             {"output_space", f.output_space},
             {"aces_container", f.aces_container},
             {"world_to_camera", to_object(f.world_to_camera)},
-            {"world_to_screen", to_object(f.world_to_screen)},
+            {"world_to_screen", f.world_to_screen ? to_object(*f.world_to_screen) : Json()},
             {"camera", f.camera},
             {"focal_length", f.focal_length},
             {"f_number", f.f_number},
@@ -74,7 +74,7 @@ OutputFrame to_frame(const Json& json) {
     f.output_space = json.value("output_space", "");
     f.aces_container = json.value("aces_container", false);
     f.world_to_camera = to_matrix(json.at("world_to_camera"));
-    f.world_to_screen = to_matrix(json.at("world_to_screen"));
+    if (const Json& matrix = json.at("world_to_screen"); !matrix.is_null()) f.world_to_screen = to_matrix(matrix);
     json.at("camera").get_to(f.camera);
     json.at("focal_length").get_to(f.focal_length);
     json.at("f_number").get_to(f.f_number);
@@ -272,6 +272,7 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
     frame.output_space = settings.color.output_space;
     frame.aces_container = settings.color.aces_container;
     frame.exposure = settings.color.exposure;
+    frame.pixel_aspect = settings.film.pixel_aspect;
     describe_lens(scene, frame);
     frame.fps = settings.fps;
     frame.frame = settings.frame;
@@ -299,7 +300,8 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
 
 void describe_camera(ImageDescription& description, const World& world) {
     description.frame.world_to_camera = after_move(-world.origin(), world_to_camera(world.camera().model()));
-    description.frame.world_to_screen = after_move(-world.origin(), world_to_screen(world.camera().model()));
+    if (const auto to_screen = world_to_screen(world.camera().model()))
+        description.frame.world_to_screen = after_move(-world.origin(), *to_screen);
 }
 
 std::string to_text(const ImageDescription& description) {

@@ -50,8 +50,7 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     RenderOptions options;
     options.full_width = film.width;
     options.full_height = film.height;
-    options.window = film.crop ? PixelRect{(*film.crop)[0], (*film.crop)[1], (*film.crop)[2], (*film.crop)[3]}
-                               : PixelRect{0, 0, film.width, film.height};
+    options.window = film.window();
     options.spp = static_cast<std::uint32_t>(settings.spp);
     options.seed = settings.seed;
     options.sequence = settings.sampler == SamplerType::Random ? SampleSequence::Random : SampleSequence::Sobol;
@@ -69,7 +68,7 @@ RenderOptions make_render_options(const RenderSettings& settings) {
 
 RenderOptions make_part_options(const RenderSettings& settings, const std::optional<SampleRange>& samples) {
     RenderOptions options = make_render_options(settings);
-    options.splat_window = {0, 0, options.full_width, options.full_height};
+    options.splat_window = settings.film.frame();
     options.time_limit_seconds = 0.0;
     options.relative_error = 0.0;
     options.adaptive = false;

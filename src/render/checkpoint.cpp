@@ -186,12 +186,12 @@ PixelFilter get_filter(Reader& in) {
     return PixelFilter(static_cast<FilterShape>(shape), radius);
 }
 
-/// A window with pixels, all of them in `frame`.
-PixelRect get_window(Reader& in, const PixelRect& frame) {
+/// A window with pixels, none of them farther beyond the image than that is large.
+PixelRect get_window(Reader& in, int width, int height) {
     std::array<int, 4> edges;
     in.get(std::span<int>(edges));
     const PixelRect window{edges[0], edges[1], edges[2], edges[3]};
-    if (window.empty() || intersection(window, frame) != window) in.fail();
+    if (window.empty() || intersection(window, {-width, -height, 2 * width, 2 * height}) != window) in.fail();
     return window;
 }
 
@@ -224,8 +224,10 @@ LayerBuffer get_layers(Reader& in, std::size_t pixels) {
 Film get_film(Reader& in) {
     const auto width = in.get<int>();
     const auto height = in.get<int>();
-    const PixelRect window = get_window(in, {0, 0, width, height});
-    const PixelRect splat_window = get_window(in, {0, 0, width, height});
+    constexpr int kMostSize = 1 << 24;  // far more than can be asked for
+    if (width < 1 || width > kMostSize || height < 1 || height > kMostSize) in.fail();
+    const PixelRect window = get_window(in, width, height);
+    const PixelRect splat_window = get_window(in, width, height);
     LayerBuffer layers = get_layers(in, window.area());
     std::vector<PixelSum> sums = in.get_many<PixelSum>(window.area());
     std::optional<SplatFilm> splats;

@@ -23,7 +23,7 @@ class RenderProfile;
 struct SamplingOptions {
     int full_width = 1024;
     int full_height = 576;
-    PixelRect window{0, 0, 1024, 576};  ///< inside the full image, not empty
+    PixelRect window{0, 0, 1024, 576};  ///< may go beyond the full image, not empty
     /// Names the rectangle that `window` is a part of, of which other renders have the rest: splats are kept for all of
     /// it. Empty for `window` itself.
     PixelRect splat_window{};

@@ -8,10 +8,20 @@
 
 namespace etendue {
 
+namespace {
+
+/// Returns where the tile begins in which `pixel` lies.
+int start_of_tile(int pixel) {
+    const int tiles = pixel / kTileSize - (pixel % kTileSize < 0 ? 1 : 0);
+    return tiles * kTileSize;
+}
+
+}  // namespace
+
 std::vector<PixelRect> make_tiles(const PixelRect& window) {
     std::vector<PixelRect> tiles;
-    for (int y = window.y0 / kTileSize * kTileSize; y < window.y1; y += kTileSize)
-        for (int x = window.x0 / kTileSize * kTileSize; x < window.x1; x += kTileSize)
+    for (int y = start_of_tile(window.y0); y < window.y1; y += kTileSize)
+        for (int x = start_of_tile(window.x0); x < window.x1; x += kTileSize)
             tiles.push_back({std::max(x, window.x0), std::max(y, window.y0), std::min(x + kTileSize, window.x1),
                              std::min(y + kTileSize, window.y1)});
     return tiles;

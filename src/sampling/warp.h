@@ -52,6 +52,38 @@ template <typename T = float>
     return {(a + 1.0f) * 0.5f, (b + 1.0f) * 0.5f};
 }
 
+/// Maps the unit square to the regular polygon of so many corners, at least 3, on the unit circle, uniformly; the
+/// middle of a side is on the right.
+[[nodiscard]] inline Vec2f square_to_regular_polygon(Vec2f u, int corners) {
+    const auto count = static_cast<float>(corners);
+    const float which = std::min(std::floor(u.x * count), count - 1.0f);
+    // Within a triangle from the middle to a side.
+    const float from_middle = std::sqrt(u.x * count - which);
+    const float along_side = 2.0f * u.y - 1.0f;
+    const float half_angle = kPi / count;
+    const float x = from_middle * std::cos(half_angle);
+    const float y = from_middle * along_side * std::sin(half_angle);
+    const float turn = 2.0f * half_angle * which;
+    return {std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y};
+}
+[[nodiscard]] inline float regular_polygon_pdf_area(Vec2f p, int corners) {
+    const float half_angle = kPi / static_cast<float>(corners);
+    const float side = std::round(std::atan2(p.y, p.x) / (2.0f * half_angle)) * 2.0f * half_angle;
+    if (std::cos(side) * p.x + std::sin(side) * p.y > std::cos(half_angle)) return 0.0f;
+    return 1.0f / (static_cast<float>(corners) * std::cos(half_angle) * std::sin(half_angle));
+}
+[[nodiscard]] inline Vec2f regular_polygon_to_square(Vec2f p, int corners) {
+    const auto count = static_cast<float>(corners);
+    const float half_angle = kPi / count;
+    const float which = std::round(std::atan2(p.y, p.x) / (2.0f * half_angle));
+    const float turn = 2.0f * half_angle * which;
+    const float x = std::cos(turn) * p.x + std::sin(turn) * p.y;
+    const float y = std::cos(turn) * p.y - std::sin(turn) * p.x;
+    const float from_middle = x / std::cos(half_angle);
+    const float along_side = from_middle > 0.0f ? y / (from_middle * std::sin(half_angle)) : 0.0f;
+    return {((which < 0.0f ? which + count : which) + from_middle * from_middle) / count, 0.5f * (along_side + 1.0f)};
+}
+
 /// Maps the unit square to the hemisphere around +z, with a density proportional to the cosine.
 template <typename T = float>
 [[nodiscard]] inline Imath::Vec3<T> square_to_cosine_hemisphere(const Imath::Vec2<T>& u) {

@@ -4,6 +4,7 @@
 #include "scene/canonical_settings.h"
 #include "scene/scene_desc.h"
 
+#include <cmath>
 #include <iterator>
 #include <type_traits>
 
@@ -222,14 +223,38 @@ std::string quoted(const std::string& name, const std::string& node) {
     return node.empty() || node == name ? quoted(name) : fmt::format("{} of node {}", quoted(name), quoted(node));
 }
 
+std::string text_of_projection(const CameraDesc& c) {
+    switch (c.type) {
+        case CameraType::Perspective:
+            return fmt::format("perspective yfov {:g}", c.yfov);
+        case CameraType::Orthographic:
+            return fmt::format("orthographic ymag {:g}", c.ymag);
+        case CameraType::Equirectangular:
+            return "equirectangular";
+        case CameraType::Fisheye:
+            return fmt::format("fisheye fov {:g} {} circle {:g}", c.fov,
+                               c.fisheye == FisheyeType::Equisolid ? "equisolid" : "equidistant", c.circle);
+    }
+    return "?";
+}
+
+/// Says of a camera what few have.
+void dump_view(const CameraDesc& c, Out out) {
+    if (c.shift != Vec2f(0.0f, 0.0f)) fmt::format_to(out, "  shift ({:g} {:g})\n", c.shift.x, c.shift.y);
+    if (c.clip.start > 0.0f || std::isfinite(c.clip.end))
+        fmt::format_to(out, "  clipped from {:g} to {:g}\n", c.clip.start, c.clip.end);
+    if (c.aperture.blades > 0 || c.aperture.ratio != 1.0f)
+        fmt::format_to(out, "  aperture of {} blades turned by {:g}, ratio {:g}\n", c.aperture.blades,
+                       c.aperture.rotation, c.aperture.ratio);
+}
+
 void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const CameraDesc& c = scene.cameras[i];
-        const bool perspective = c.type == CameraType::Perspective;
-        fmt::format_to(out, "camera {} {}: {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i,
-                       quoted(c.name, c.node), perspective ? "perspective yfov" : "orthographic ymag",
-                       perspective ? c.yfov : c.ymag, c.aspect_ratio, c.lens_radius, c.focus_distance,
+        fmt::format_to(out, "camera {} {}: {}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i,
+                       quoted(c.name, c.node), text_of_projection(c), c.aspect_ratio, c.lens_radius, c.focus_distance,
                        text(c.to_world, scene.origin), text_of_motion(c.motion.size()));
+        dump_view(c, out);
     }
     for (std::size_t i = 0; i < scene.ies_profiles.size(); ++i) {
         const IesProfileDesc& p = scene.ies_profiles[i];

@@ -102,9 +102,7 @@ Bounds compute_bounds(const SceneDesc& scene) {
 void add_missing_camera_and_light(SceneDesc& scene, ProblemList& problems) {
     const SourceLocation where{scene.file.string(), {}};
     if (scene.cameras.empty()) {
-        const FilmSettings& film = scene.settings.film;
-        const float aspect = static_cast<float>(film.width) / static_cast<float>(film.height);
-        scene.cameras.push_back(framing_camera(compute_bounds(scene), aspect));
+        scene.cameras.push_back(framing_camera(compute_bounds(scene), scene.settings.film.aspect()));
         problems.note(where, "the scene has no camera: one was placed to frame the bounding box");
     }
     if (!has_light(scene)) {

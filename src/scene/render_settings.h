@@ -2,11 +2,14 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/pixel_rect.h"
 #include "scene/aov_desc.h"
 #include "scene/integrator_settings.h"
 #include "scene/light_desc.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -46,13 +49,30 @@ inline constexpr std::array<std::pair<std::string_view, MissingTextures>, 2> kMi
 enum class SamplerType { Sobol, Random };
 enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };
 
+inline constexpr int kMostSide = 65536;  ///< pixels of the width and the height of an image
+
 struct FilmSettings {
     int width = 1024;  ///< pixels, [1, 65536]
     int height = 576;  ///< pixels, [1, 65536]
-    /// x0, y0, x1, y1 in pixels, half-open, y down from the top left corner.
+    /// x0, y0, x1, y1 in pixels, half-open, y down from the top left corner, beyond which they may lie.
     std::optional<std::array<int, 4>> crop;
     PixelFilterType filter = PixelFilterType::BlackmanHarris;
     float filter_radius = 0.0f;  ///< pixels; 0 for the filter's own default
+    float overscan = 0.0f;       ///< pixels beyond each edge; below 1, a share of the image's longer side
+    float pixel_aspect = 1.0f;   ///< width over height of a pixel, [1/64, 64]
+
+    /// Returns the pixels of the image, and those of its overscan around them.
+    [[nodiscard]] PixelRect frame() const {
+        const float share = std::ceil(overscan * static_cast<float>(std::max(width, height)));
+        const int beyond = static_cast<int>(overscan < 1.0f ? share : overscan);
+        return {-beyond, -beyond, width + beyond, height + beyond};
+    }
+    /// Returns the pixels that are rendered.
+    [[nodiscard]] PixelRect window() const {
+        return crop ? PixelRect{(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]} : frame();
+    }
+    /// Returns the width of the image over its height, as it is to be shown.
+    [[nodiscard]] float aspect() const { return pixel_aspect * static_cast<float>(width) / static_cast<float>(height); }
 };
 
 struct ColorSettings {

@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMostSpp = 1 << 24;
-constexpr std::int64_t kMostSide = 65536;
 
 constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplerNames{{
     {"sobol", SamplerType::Sobol},
@@ -264,14 +263,25 @@ constexpr std::array kRows{
             .unit = "pixels",
             .help = "Width and height of the image",
             .place = kResolutionPlace},
-    Setting{.pointer = "/crop",
-            .option = "--crop",
-            .type = WholeNumbers{{0, kMostSide}, 4, 4, ',', "x0,y0,x1,y1", "x0 < x1 and y0 < y1", is_window},
+    Setting{
+        .pointer = "/crop",
+        .option = "--crop",
+        .type = WholeNumbers{{-kMostSide, 2 * kMostSide}, 4, 4, ',', "x0,y0,x1,y1", "x0 < x1 and y0 < y1", is_window},
+        .decides = Decides::Amount,
+        .unit = "pixels",
+        .default_text = "all",
+        .help = "Render only the pixels from x0, y0 to before x1, y1, with y down from the top left corner; the window "
+                "may go beyond the image",
+        .place = at([](auto& s) -> auto& { return s.film.crop; })},
+    Setting{.pointer = "/film/overscan",
+            .option = "--overscan",
+            .type = RealNumber{{.min = 0.0, .max = kMostSide}, true},
             .decides = Decides::Amount,
             .unit = "pixels",
-            .default_text = "all",
-            .help = "Render only the pixels from x0, y0 to before x1, y1, with y down from the top left corner",
-            .place = at([](auto& s) -> auto& { return s.film.crop; })},
+            .help = "Render as many pixels beyond each edge of the image, which the EXR keeps outside of its display "
+                    "window; a number below 1 is a share of the longer side",
+            .page = "colour.md#overscan",
+            .place = at([](auto& s) -> auto& { return s.film.overscan; })},
     Setting{.pointer = "/camera",
             .option = "--camera",
             .type = Name{},
@@ -522,6 +532,12 @@ constexpr std::array kRows{
             .default_text = "the filter's own",
             .help = "Radius of the pixel filter",
             .place = kFilterRadiusPlace},
+    Setting{.pointer = "/film/pixel_aspect",
+            .option = "--pixel-aspect",
+            .type = RealNumber{{.min = 0.015625, .max = 64.0}, true},
+            .decides = Decides::Samples,
+            .help = "Width of a pixel over its height",
+            .place = at([](auto& s) -> auto& { return s.film.pixel_aspect; })},
     Setting{.pointer = "/texture_memory",
             .option = "--texture-memory",
             .type = Form{kByteSizeForm, "^[0-9]{1,6}[KMGT]$", parses<parse_byte_size>},

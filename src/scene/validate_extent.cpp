@@ -104,15 +104,19 @@ void validate_extent(const SceneDesc& scene, ProblemList& problems) {
         for_each_transform(instance, [&](const Mat4f& m) { farthest = std::max(farthest, reach(bounds, m)); });
         extent.extend(farthest, "the mesh", instance.location);
     }
-    const double aspect = static_cast<double>(scene.settings.film.width) / scene.settings.film.height;
+    const double aspect = static_cast<double>(scene.settings.film.aspect());
     for (const CameraDesc& camera : scene.cameras) {
-        double size = static_cast<double>(camera.lens_radius);
-        if (camera.type == CameraType::Orthographic) size = static_cast<double>(camera.ymag) * std::max(1.0, aspect);
+        const double widest = std::max(1.0, 1.0 / static_cast<double>(camera.aperture.ratio));
+        double size = static_cast<double>(camera.lens_radius) * widest;
+        if (camera.type == CameraType::Orthographic)
+            size = static_cast<double>(camera.ymag) * std::max(1.0, aspect) *
+                   (1.0 + 2.0 * static_cast<double>(std::max(std::abs(camera.shift.x), std::abs(camera.shift.y))));
         double place = 0.0;
         for_each_transform(camera, [&](const Mat4f& m) { place = std::max(place, largest_coordinate(place_of(m))); });
         extent.extend(place + size, "the camera's view", camera.location);
         if (camera.lens_radius > 0.0f)
             extent.extend(static_cast<double>(camera.focus_distance), "the camera's focus", camera.location);
+        extent.extend(static_cast<double>(camera.clip.start), "the camera's clipping", camera.location);
     }
     for (const LightDesc& light : scene.lights)
         extent.extend(largest_coordinate(place_of(light.to_world)), "the light", light.location);

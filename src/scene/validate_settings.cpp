@@ -3,23 +3,40 @@
 #include "scene/validate_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace etendue {
 
 namespace {
 
+/// Most of a camera's shift, in views: what is beyond would be nothing but rounding.
+constexpr double kMostShift = 100.0;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 void validate_crop(const RenderSettings& settings, ProblemList& problems) {
     const FilmSettings& film = settings.film;
     if (!film.crop) return;
-    const auto [x0, y0, x1, y1] = *film.crop;
-    if (x0 >= 0 && y0 >= 0 && x0 < x1 && y0 < y1 && (x1 > film.width || y1 > film.height)) {
-        problems.error(settings.at("/crop"),
-                       fmt::format("the crop window [{}, {}, {}, {}] is not inside the image of {} x {}", x0, y0, x1,
-                                   y1, film.width, film.height));
-    }
+    const PixelRect window = film.window();
+    const PixelRect around{-film.width, -film.height, 2 * film.width, 2 * film.height};
+    if (!window.empty() && intersection(window, around) != window)
+        problems.error(
+            settings.at("/crop"),
+            fmt::format("the crop window [{}, {}, {}, {}] goes farther beyond the image of {} x {} than that "
+                        "is large",
+                        window.x0, window.y0, window.x1, window.y1, film.width, film.height));
+}
+
+void validate_overscan(const RenderSettings& settings, ProblemList& problems) {
+    const FilmSettings& film = settings.film;
+    if (!(film.overscan >= 0.0f && film.overscan <= static_cast<float>(kMostSide))) return;
+    if (film.overscan >= 1.0f && film.overscan != std::trunc(film.overscan))
+        problems.error(settings.at("/film/overscan"),
+                       fmt::format("overscan is {}, but must be a whole number of pixels, or below 1", film.overscan));
+    else if (film.frame().x0 < -std::min(film.width, film.height))
+        problems.error(settings.at("/film/overscan"),
+                       fmt::format("overscan is {} pixels, more than the image of {} x {} has", -film.frame().x0,
+                                   film.width, film.height));
 }
 
 void validate_camera_name(const SceneDesc& scene, ProblemList& problems) {
@@ -63,6 +80,44 @@ void validate_profile(const IesProfileDesc& profile, ProblemList& problems) {
         problems.error(where, "the IES profile has an intensity that is negative or not finite");
 }
 
+/// Checks what panoramic cameras have, and says what they have not.
+void validate_panorama(const CameraDesc& camera, ProblemList& problems) {
+    const SourceLocation& where = camera.location;
+    if (camera.type != CameraType::Equirectangular && camera.type != CameraType::Fisheye) return;
+    if (camera.lens_radius > 0.0f)
+        problems.warning(where, "a panoramic camera has no depth of field: its lens radius is ignored");
+    if (camera.type == CameraType::Equirectangular) {
+        if (camera.shift != Vec2f(0.0f, 0.0f))
+            problems.error(where, "an equirectangular camera has no shift: turn it instead");
+        return;
+    }
+    constexpr float kTurn = 2.0f * kPi;
+    if (!(camera.fov > 0.0f && camera.fov <= kTurn))
+        problems.error(where, fmt::format("fov is {}, but must be in (0, 2 pi]", camera.fov));
+    if (!(camera.circle > 0.0f && std::isfinite(camera.circle)))
+        problems.error(where, fmt::format("the circle is {} of the image, but must be above 0", camera.circle));
+}
+
+/// Checks shift, clipping and aperture.
+void check_view(const CameraDesc& camera, ProblemList& problems) {
+    const SourceLocation& where = camera.location;
+    for (const float share : {camera.shift.x, camera.shift.y})
+        check_range(static_cast<double>(share), -kMostShift, kMostShift, "shift", where, problems);
+    const ClipDesc& clip = camera.clip;
+    if (!(clip.start >= 0.0f && std::isfinite(clip.start) && clip.end > clip.start))
+        problems.error(where,
+                       fmt::format("the clipping is from {} to {}, but must be from at least 0 to more than that",
+                                   clip.start, clip.end));
+    const ApertureDesc& aperture = camera.aperture;
+    if (aperture.blades != 0 &&
+        (aperture.blades < ApertureDesc::kLeastBlades || aperture.blades > ApertureDesc::kMostBlades))
+        problems.error(where, fmt::format("blades is {}, but must be 0 or in [{}, {}]", aperture.blades,
+                                          ApertureDesc::kLeastBlades, ApertureDesc::kMostBlades));
+    if (!std::isfinite(aperture.rotation)) problems.error(where, "the rotation of the blades is not finite");
+    if (!(aperture.ratio > 0.0f && std::isfinite(aperture.ratio)))
+        problems.error(where, fmt::format("the aperture ratio is {}, but must be above 0", aperture.ratio));
+}
+
 }  // namespace
 
 void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
@@ -74,11 +129,13 @@ void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
         if (camera.type == CameraType::Orthographic && !(camera.ymag > 0.0f && std::isfinite(camera.ymag))) {
             problems.error(where, fmt::format("ymag is {}, but must be finite and above 0", camera.ymag));
         }
+        validate_panorama(camera, problems);
         check_range(static_cast<double>(camera.aspect_ratio), 0.0, kUnbounded, "aspect ratio", where, problems);
         check_range(static_cast<double>(camera.lens_radius), 0.0, kUnbounded, "lens radius", where, problems);
         if (!(camera.focus_distance > 0.0f && std::isfinite(camera.focus_distance))) {
             problems.error(where, fmt::format("focus distance is {}, but must be above 0", camera.focus_distance));
         }
+        check_view(camera, problems);
         if (!is_invertible(camera.to_world)) {
             problems.error(where, "the camera's transform is singular, not affine or not finite");
         }
@@ -147,6 +204,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                        "strategies without weights sum to more than the image; one of them can be shown without "
                        "weights: name it as strategy");
     validate_crop(settings, problems);
+    validate_overscan(settings, problems);
     validate_camera_name(scene, problems);
     validate_variant(scene, problems);
 }

@@ -137,7 +137,10 @@ class SceneRender {
         require_inputs_kept(fmt::format("--output {}", output_.string()), files_of_image(output_, layers),
                             scene_.inputs);
         if (is_partial(output_)) {
-            const bool is_crop = options_.window != PixelRect{0, 0, options_.full_width, options_.full_height};
+            if (intersection(options_.window, options_.splat_window) != options_.window)
+                throw SceneError(scene_.settings.at("/crop"),
+                                 "a part lies within the image and its overscan: give it --overscan as well");
+            const bool is_crop = options_.window != options_.splat_window;
             if (is_crop && is_deep() && integrator_->makes_splats())
                 throw SceneError({"--deep", {}},
                                  "a part that is a crop has no depths of the light that falls into others: render "

@@ -3,6 +3,7 @@
 #include "session/usage_error.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -10,20 +11,32 @@ namespace etendue {
 
 namespace {
 
+int floor_half(int number) {
+    return number >= 0 ? number / 2 : -((1 - number) / 2);
+}
+
 void apply_quality(Quality quality, RenderSettings& settings) {
     if (quality == Quality::Final) return;
     settings.spp = std::max(1, settings.spp / (quality == Quality::Draft ? 16 : 4));
     settings.options["/spp"] = "--quality";
     if (quality == Quality::Preview) return;
     FilmSettings& film = settings.film;
+    const FilmSettings before = film;
     film.width = std::max(1, film.width / 2);
     film.height = std::max(1, film.height / 2);
     settings.options["/resolution"] = "--quality";
+    if (film.overscan >= 1.0f) film.overscan = std::ceil(0.5f * film.overscan);
     if (film.crop) {
         auto& c = *film.crop;
         // An odd size loses its last column or row; a window that was only there keeps the one before.
-        c = {std::min(c[0] / 2, film.width - 1), std::min(c[1] / 2, film.height - 1),
-             std::min(film.width, (c[2] + 1) / 2), std::min(film.height, (c[3] + 1) / 2)};
+        const auto first = [](int pixel, int size, int half) {
+            return pixel < size ? std::min(floor_half(pixel), half - 1) : half + floor_half(pixel - size);
+        };
+        const auto end = [](int pixel, int size, int half) {
+            return pixel <= size ? std::min(half, floor_half(pixel + 1)) : half + floor_half(pixel - size + 1);
+        };
+        c = {first(c[0], before.width, film.width), first(c[1], before.height, film.height),
+             end(c[2], before.width, film.width), end(c[3], before.height, film.height)};
     }
 }
 

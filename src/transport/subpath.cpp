@@ -123,7 +123,8 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
     std::vector<SubpathVertex> vertices;
     for (int bounce = 1;; ++bounce) {
         const bool is_seen = subpath.end == SubpathEnd::AtEye && subpath.index == kDirectlySeen;
-        const Hit hit = nearest_hit(world, subpath.ray, is_seen ? RayEnds::AtCamera : RayEnds::InScene);
+        Hit hit = nearest_hit(world, subpath.ray, is_seen ? RayEnds::AtCamera : RayEnds::InScene);
+        if (is_seen && world.traits().clips_far && world.camera().is_too_far(subpath.ray, hit)) hit = {};
         if (!hit.valid()) {
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;

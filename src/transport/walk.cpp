@@ -47,7 +47,8 @@ Hit nearest_hit(const World& world, const EyePath& path) {
     const Hit hit =
         path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
     const bool passes = path.is_seen() && world.materials().is_hidden_from_camera(hit);
-    return passes ? nearest_hit(world, path.ray, RayEnds::AtCamera) : hit;
+    const Hit shown = passes ? nearest_hit(world, path.ray, RayEnds::AtCamera) : hit;
+    return world.traits().clips_far && path.is_seen() && world.camera().is_too_far(path.ray, shown) ? Hit{} : shown;
 }
 
 Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer, RayEnds ends) {

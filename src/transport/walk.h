@@ -77,7 +77,7 @@ struct VertexNumbers {
 
 /// Returns the nearest surface along `ray`.
 [[nodiscard]] Hit nearest_hit(const World& world, const Ray& ray, RayEnds ends = RayEnds::InScene);
-/// Returns the nearest surface along the path's ray.
+/// Returns the nearest surface along the path's ray, if the camera shows it where the eye sees along the ray.
 [[nodiscard]] Hit nearest_hit(const World& world, const EyePath& path);
 /// Returns the share of light, [0, 1], that passes what lies within the length of `ray`; `tracer` may be null.
 [[nodiscard]] Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer = nullptr,

@@ -76,6 +76,8 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
     }
     const auto part = [&](auto& all) { return std::span(all).first(samples.size()); };
     world.camera().generate_rays(part(on_film), part(on_lens), part(times), rays);
+    if (world.traits().has_blind_film)
+        for (std::size_t i = 0; i < samples.size(); ++i) samples[i].is_blind = !(rays[i].t_max > 0.0f);
     if (!world.traits().has_transparency) return;
     for (std::size_t i = 0; i < samples.size(); ++i)
         rays[i].alpha_key = sample_bits(samples[i].key, kCameraAlphaDimension);
@@ -86,6 +88,7 @@ void offer_brightest(const TileJob& job, std::span<const CameraSample> samples, 
                      RenderCounters& counters) {
     for (const BrightLight& bright : light.bright()) {
         const CameraSample& sample = samples[bright.slot];
+        if (sample.is_blind && !bright.position) continue;
         const Vec2i maker = pixel_position(job, sample.pixel);
         BrightSample found{.x = maker.x,
                            .y = maker.y,
@@ -115,10 +118,9 @@ void add_to_bucket(const BucketLayers& buckets, const CameraSample& sample, cons
 
 /// Adds what sample `slot` of a wave has found to the layers of its pixel.
 void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t slot, const SampleLight& light,
-                   float alpha, TileBuffer& tile) {
+                   const Rgb& radiance, float alpha, TileBuffer& tile) {
     LayerBuffer& layers = tile.layers();
     const LayerLayout& layout = layers.layout();
-    const Rgb& radiance = light.radiance(slot);
     const auto weight = static_cast<double>(sample.weight);
     if (job.aovs != nullptr && job.aovs->needs_first_hits())
         tile.wave_hits().add_to(layers, sample.pixel, slot, weight);
@@ -133,7 +135,7 @@ void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t s
     }
     const std::span<const Rgb> parts = light.layers(slot);
     for (std::size_t layer = 0; layer < parts.size(); ++layer)
-        layers.add_rgb(sample.pixel, 3 * layer, parts[layer], weight);
+        layers.add_rgb(sample.pixel, 3 * layer, sample.is_blind ? Rgb() : parts[layer], weight);
     if (job.aovs != nullptr && job.aovs->buckets.count > 0) add_to_bucket(job.aovs->buckets, sample, radiance, layers);
     if (layout.has_moments) layers.add_moments(sample.pixel, radiance, weight);
     if (layout.has_ray_counts) layers.sums(sample.pixel)[layout.ray_sum()] += static_cast<double>(light.rays(slot));
@@ -207,9 +209,13 @@ void accumulate(const TileJob& job, std::span<const CameraSample> samples, const
                 std::span<const float> alpha, TileBuffer& tile, RenderCounters& counters) {
     offer_brightest(job, samples, light, counters);
     const bool has_layers = !tile.layers().layout().empty();
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        if (accumulate(job, samples[i], light.radiance(i), alpha[i], tile, counters) && has_layers)
-            add_to_layers(job, samples[i], i, light, alpha[i], tile);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const bool is_blind = samples[i].is_blind;
+        const Rgb radiance = is_blind ? Rgb() : light.radiance(i);
+        const float opacity = is_blind ? 0.0f : alpha[i];
+        if (accumulate(job, samples[i], radiance, opacity, tile, counters) && has_layers)
+            add_to_layers(job, samples[i], i, light, radiance, opacity, tile);
+    }
 }
 
 }  // namespace etendue

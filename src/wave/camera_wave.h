@@ -21,6 +21,7 @@ struct CameraSample {
     std::uint32_t pixel = 0;  ///< index in the tile, row by row
     float weight = 1.0f;      ///< weight by the pixel filter
     Vec2f lens{0.0f, 0.0f};   ///< chooses the point on the lens, in [0, 1)²
+    bool is_blind = false;    ///< it comes from where the film sees nothing: it is black, and shows nothing
 };
 
 /// How the samples of a job are numbered.

@@ -1,5 +1,6 @@
 #include "wave/connections.h"
 
+#include "wave/film_repeats.h"
 #include "wave/profile/wave_profile.h"
 #include "wave/ray_batch.h"
 
@@ -110,6 +111,12 @@ void Connections::resolve(const World& world, const TileJob& job, std::span<cons
     const RayColumns rays_traced = rays();
     occluded_batch(world, job, kind_, rays_traced, occluded_, counters);
     const std::span<const ExpressionShare> all_shares(shares_);
+    const auto add_splat = [&](std::uint32_t slot, const Splat& splat, LightKind kind,
+                               std::span<const ExpressionShare> shares) {
+        const std::size_t first = tile.splats().size();
+        light.add_splat(slot, samples[slot].key.index, splat, kind, shares, tile.splats());
+        if (world.traits().film_wraps) repeat_splats(job, first, tile.splats());
+    };
     for (std::size_t i = 0, first = 0; i < count_; ++i) {
         const auto shares = all_shares.subspan(first, bits_[kEndOfShares][i] - first);
         first = bits_[kEndOfShares][i];
@@ -122,9 +129,7 @@ void Connections::resolve(const World& world, const TileJob& job, std::span<cons
         if (places_.empty())
             light.add(slot, value, kind, shares);
         else if (is_finite(value) && min_component(value) >= 0.0f)
-            light.add_splat(slot, samples[slot].key.index,
-                            {.position = places_[i].position, .value = value, .depth = places_[i].depth}, kind, shares,
-                            tile.splats());
+            add_splat(slot, {.position = places_[i].position, .value = value, .depth = places_[i].depth}, kind, shares);
         else
             counters.drop(located(job, samples[slot]));
     }

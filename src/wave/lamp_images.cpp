@@ -154,7 +154,7 @@ class ImageFinder {
         rays_.resize(count);
         hits_.assign(count, {});
         world_.camera().generate_rays(film_, std::vector(count, Vec2f(0.5f)), std::vector(count, 0.5f), rays_);
-        world_.geometry().intersect(rays_, hits_, Coherence::Coherent);
+        world_.geometry().intersect(rays_, hits_, Coherence::Coherent, QueryForm::Best, RayEnds::AtCamera);
         ways_.assign(count, 0);
         for (std::size_t i = 0; i < count; ++i)
             if (hits_[i].valid() && is_specular(*world_.materials().at(hits_[i]))) {
@@ -393,8 +393,8 @@ class ImageTracer final : public SampleTracer {
     ImageTracer(const World& world, const TileJob& job, RenderCounters& counters)
         : world_(world), job_(job), counters_(counters) {}
 
-    [[nodiscard]] Hit nearest_hit(const Ray& ray, int /*number*/) override {
-        return intersect_one(world_, job_, RayKind::LampInView, ray, counters_);
+    [[nodiscard]] Hit nearest_hit(const Ray& ray, int number) override {
+        return intersect_one(world_, job_, number == 1 ? RayKind::LampInView : RayKind::Bounce, ray, counters_);
     }
     [[nodiscard]] std::uint8_t occluded(const Ray& ray) override {
         return occluded_one(world_, job_, RayKind::LampInView, ray, counters_);

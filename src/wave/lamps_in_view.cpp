@@ -29,10 +29,6 @@ constexpr float kEven = 2.0f;
     return {rect.x0 - by, rect.y0 - by, rect.x1 + by, rect.y1 + by};
 }
 
-[[nodiscard]] PixelRect full_image(const TileJob& job) {
-    return {0, 0, job.full_width, job.full_height};
-}
-
 [[nodiscard]] bool contains(const PixelRect& rect, const Vec2i& pixel) {
     return pixel.x >= rect.x0 && pixel.x < rect.x1 && pixel.y >= rect.y0 && pixel.y < rect.y1;
 }
@@ -79,14 +75,11 @@ void for_each_pixel(const PixelRect& rect, const Visit& visit) {
 /// Along one axis, how a place on the film is seen by the pixels around the one whose sample fell there.
 class AlongAxis {
   public:
-    /// The place is `offset` pixels from the middle of `pixel`, whose sample it is; the image has the pixels [0, end).
-    AlongAxis(const PixelFilter& filter, float offset, int pixel, int end) {
+    /// The place is `offset` pixels from the middle of the pixel whose sample it is.
+    AlongAxis(const PixelFilter& filter, float offset) {
         std::array<float, kOffsets> densities{};
-        for (int i = 0; i < kOffsets; ++i) {
-            const int beside = i - 2 * kReach;
-            if (pixel + beside >= 0 && pixel + beside < end)
-                densities[static_cast<std::size_t>(i)] = filter.pdf(offset - static_cast<float>(beside));
-        }
+        for (int i = 0; i < kOffsets; ++i)
+            densities[static_cast<std::size_t>(i)] = filter.pdf(offset - static_cast<float>(i - 2 * kReach));
         for (std::size_t i = 0; i < scales_.size(); ++i) {
             float density = 0.0f;
             for (std::size_t k = i; k < i + scales_.size(); ++k) density += densities[k];
@@ -124,7 +117,7 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
     found_.clear();
     images_.start(world, job, lengths);
     if (!is_active_ && !images_.is_active()) return;
-    around_ = intersection(grown(job.rect, kReach), full_image(job));
+    around_ = grown(job.rect, kReach);
     first_samples_.assign(job.rect.area(), job.pixels.empty() ? job.first_sample : kNone);
     for (const PixelJob& pixel : job.pixels) first_samples_[pixel.pixel] = pixel.first_sample;
     if (job.aovs != nullptr && job.aovs->layout.has_moments) found_.assign(job.rect.area() * job.sample_count, {});
@@ -187,7 +180,7 @@ void LampsInView::note_radiance(std::span<const CameraSample> samples, const Sam
     if (found_.empty()) return;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Rgb& radiance = light.radiance(i);
-        if (is_finite(radiance) && min_component(radiance) >= 0.0f)
+        if (!samples[i].is_blind && is_finite(radiance) && min_component(radiance) >= 0.0f)
             found_by(samples[i].pixel, samples[i].key.index) = radiance;
     }
 }
@@ -224,6 +217,7 @@ void LampsInView::trace_neighbours(RenderCounters& counters) {
     hits_.resize(samples_.size());
     generate_camera_rays(*world_, *job_, positions_, samples_, rays_);
     intersect_batch(*world_, *job_, RayKind::LampInView, rays_, hits_, counters);
+    hide_unseen_hits(*world_, rays_, hits_);
     for (std::size_t i = 0; i < samples_.size(); ++i)
         if (is_lamp(*world_, hits_[i])) note(samples_[i], positions_[i], rays_[i], hits_[i], nullptr);
 }
@@ -248,6 +242,7 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
     hits_.resize(count);
     world_->camera().generate_rays(film_, lens, times, rays_);
     intersect_batch(*world_, *job_, RayKind::LampInView, rays_, hits_, counters);
+    hide_unseen_hits(*world_, rays_, hits_);
     middles_.assign(around_.area(), 0.0f);
     for (std::size_t i = 0; i < count; ++i)
         if (is_lamp(*world_, hits_[i]))
@@ -260,7 +255,7 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
 bool LampsInView::has_even_middles(const Vec2i& pixel) const {
     float least = middles_[index_in(around_, pixel)];
     float most = least;
-    for_each_pixel(intersection(neighbours(pixel), full_image(*job_)), [&](const Vec2i& beside) {
+    for_each_pixel(neighbours(pixel), [&](const Vec2i& beside) {
         least = std::min(least, middles_[index_in(around_, beside)]);
         most = std::max(most, middles_[index_in(around_, beside)]);
     });
@@ -276,9 +271,7 @@ void LampsInView::spread(const Met& met, TileBuffer& tile, RenderCounters& count
             if (pixel == met.pixel) add(met, pixel, met.light, tile);
             return;
         }
-        if (!axes)
-            axes.emplace(AlongAxis(*job_->filter, met.offset.x, met.pixel.x, job_->full_width),
-                         AlongAxis(*job_->filter, met.offset.y, met.pixel.y, job_->full_height));
+        if (!axes) axes.emplace(AlongAxis(*job_->filter, met.offset.x), AlongAxis(*job_->filter, met.offset.y));
         const float scale = axes->first.scale(pixel.x - met.pixel.x) * axes->second.scale(pixel.y - met.pixel.y);
         if (scale == 0.0f) return;
         offer(met, pixel, met.light * scale, counters);

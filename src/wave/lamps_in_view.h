@@ -8,7 +8,7 @@
 //   sum over q of f_p(x_q) E(x_q) / sum over q' of d_q'(x_q)
 //
 // where f is the filter and d the density with which samples are placed: multiple importance sampling with the balance
-// heuristic, one sample of each of nine densities (Veach 1997, equation 9.8). Neighbours beside the image do not exist.
+// heuristic, one sample of each of nine densities (Veach 1997, equation 9.8). Neighbours may lie beside the image.
 //
 // It is a function of the seed, the pixel and the sample: i-th samples of pixels that the tile does not render are
 // traced again, as far as what they meet first. So crops, parts and adaptive passes see what the whole image would.

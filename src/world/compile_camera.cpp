@@ -1,5 +1,6 @@
 #include "world/compile_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -24,14 +25,31 @@ TransformMotion compile_camera_motion(const SceneDesc& scene) {
 
 Camera compile_camera(const SceneDesc& scene) {
     const CameraDesc& desc = chosen_camera(scene);
-    const FilmSettings& film = scene.settings.film;
-    const float aspect = static_cast<float>(film.width) / static_cast<float>(film.height);
     const CameraPose pose = CameraPose::from_matrix(desc.to_world);
-    if (desc.type == CameraType::Orthographic) return OrthographicCamera{pose, desc.ymag * aspect, desc.ymag};
-    const float half_height = std::tan(0.5f * desc.yfov);
-    const PinholeCamera pinhole{pose, half_height * aspect, half_height};
-    if (desc.lens_radius > 0.0f) return ThinLensCamera{pinhole, desc.lens_radius, desc.focus_distance};
-    return pinhole;
+    const ClipRange clip{desc.clip.start, desc.clip.end};
+    if (desc.type == CameraType::Equirectangular) return EquirectangularCamera{pose, clip};
+    const float aspect = scene.settings.film.aspect();
+    if (desc.type == CameraType::Fisheye) {
+        const float height = 1.0f / (desc.circle * std::min(1.0f, aspect));
+        const float width = height * aspect;
+        return FisheyeCamera{
+            .pose = pose,
+            .half_width = width,
+            .half_height = height,
+            .center = desc.shift * (2.0f * std::max(width, height)),
+            .half_angle = 0.5f * desc.fov,
+            .mapping = desc.fisheye == FisheyeType::Equisolid ? FisheyeMapping::Equisolid : FisheyeMapping::Equidistant,
+            .clip = clip};
+    }
+    const float half_height = desc.type == CameraType::Orthographic ? desc.ymag : std::tan(0.5f * desc.yfov);
+    const float half_width = half_height * aspect;
+    const Vec2f center = desc.shift * (2.0f * std::max(half_width, half_height));
+    if (desc.type == CameraType::Orthographic) return OrthographicCamera{pose, half_width, half_height, center, clip};
+    const PinholeCamera pinhole{pose, half_width, half_height, center, clip};
+    if (!(desc.lens_radius > 0.0f)) return pinhole;
+    const ApertureDesc& opening = desc.aperture;
+    return ThinLensCamera{
+        pinhole, desc.lens_radius, desc.focus_distance, {opening.blades, opening.rotation, opening.ratio}};
 }
 
 }  // namespace etendue

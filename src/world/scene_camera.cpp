@@ -43,12 +43,16 @@ CameraConnection SceneCamera::connect(const Vec3f& point, Vec2f lens, float time
 }
 
 float SceneCamera::depth(const Vec3f& point, float time) const {
-    const CameraPose pose = data_.camera_motion.empty() ? pose_of(data_.camera) : pose_of(at(time));
-    return dot(point - pose.position, pose.forward);
+    return camera_depth(data_.camera_motion.empty() ? data_.camera : at(time), point);
+}
+
+bool SceneCamera::is_too_far(const Ray& ray, const Hit& hit) const {
+    return hit.valid() && depth(ray.origin + ray.direction * hit.t, ray.time) > clip_of(data_.camera).end;
 }
 
 bool SceneCamera::may_show_lamps(Vec2f least, Vec2f most) const {
-    if (traits_.has_motion || traits_.has_lens || traits_.has_unsampled_emitters) return traits_.has_emitting_surfaces;
+    if (traits_.has_motion || traits_.has_lens || is_panoramic(data_.camera) || traits_.has_unsampled_emitters)
+        return traits_.has_emitting_surfaces;
     const std::array<Vec2f, 4> corners{least, Vec2f(most.x, least.y), most, Vec2f(least.x, most.y)};
     const Ray middle = generate_ray((least + most) * 0.5f, Vec2f(0.5f, 0.5f), 0.0f);
     std::array<Ray, 4> rays;

@@ -31,6 +31,8 @@ class SceneCamera {
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens, float time) const;
     /// Returns the distance of `point` from the camera as it is at `time`, metres along its viewing direction.
     [[nodiscard]] float depth(const Vec3f& point, float time) const;
+    /// Returns whether `hit`, which the eye sees along `ray`, lies farther than the camera shows.
+    [[nodiscard]] bool is_too_far(const Ray& ray, const Hit& hit) const;
     /// Returns false if no camera ray through the part of the film from `least` to `most` can meet a surface that emits
     /// light.
     [[nodiscard]] bool may_show_lamps(Vec2f least, Vec2f most) const;

@@ -8,6 +8,7 @@
 #include "world/media.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <variant>
 
@@ -39,6 +40,9 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
         std::ranges::any_of(data.materials, [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
     traits.has_motion = data.bvh->has_motion() || !data.camera_motion.empty();
     traits.has_lens = has_lens(data.camera);
+    traits.film_wraps = film_wraps(data.camera);
+    traits.has_blind_film = has_blind_film(data.camera);
+    traits.clips_far = !std::isinf(clip_of(data.camera).end);
     traits.has_specular_surfaces = has_surface(is_specular);
     traits.has_unlit_surfaces = has_surface([](const Material& material) { return material.unlit; });
     traits.has_emitting_surfaces = has_surface([](const Material& material) { return material.emits; });

@@ -15,6 +15,9 @@ struct SceneTraits {
     bool has_panes = false;               ///< some surface is a pane
     bool has_transparency = false;        ///< some surface lets light through, so that rays need alpha keys
     bool has_motion = false;              ///< something moves while the shutter is open, so that rays need times
+    bool film_wraps = false;              ///< the camera sees all around: its film goes on beyond its edges
+    bool has_blind_film = false;          ///< parts of the film see nothing: the t_max of rays from there is 0
+    bool clips_far = false;               ///< the camera shows no surface beyond some depth
     bool has_lens = false;                ///< numbers for a point on the lens mean something
     bool has_specular_surfaces = false;   ///< some surface mirrors or refracts without any roughness
     bool has_unlit_surfaces = false;      ///< some surface shows its colour and neither scatters nor emits light

@@ -18,6 +18,8 @@ WorldParts::WorldParts(WorldData from)
       lights(data, materials),
       emitters(data, materials, media),
       environment(data) {
+    // Without its walls, a body around the camera would have no end.
+    if (!media.camera_interior().is_empty()) data.camera = without_far_clip(data.camera);
     traits = find_traits(data, media, lights, emitters);
 }
 

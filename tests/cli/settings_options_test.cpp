@@ -132,7 +132,7 @@ TEST(SettingsOverrides, NonsenseIsAUsageError) {
                                                        {"--size", "10x10x"},
                                                        {"--crop", "1,2,3"},
                                                        {"--crop", "5,0,5,9"},
-                                                       {"--crop", "-1,0,5,9"},
+                                                       {"--crop", "-65537,0,5,9"},
                                                        {"--crop", "0,9,5,0"},
                                                        {"--frames", "3:1"},
                                                        {"--frames", "1:3:0"},

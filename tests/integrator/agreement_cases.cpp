@@ -145,11 +145,51 @@ std::vector<AgreementCase> all_cases() {
                      {.max_depth = 6},
                      {11, 13, 57, 45},
                      128});
+    // The occluder before the near plane, most of the wall and of the floor beyond the far one.
+    const auto clipped = [](SceneDesc& scene) {
+        scene.settings.film.pixel_aspect = 1.3f;
+        CameraDesc& camera = scene.cameras[0];
+        camera.shift = {0.1f, -0.05f};
+        camera.clip = {2.3f, 3.4f};
+        camera.lens_radius = 0.08f;
+        camera.focus_distance = 2.6f;
+        camera.aperture = {.blades = 5, .rotation = 0.4f, .ratio = 1.5f};
+    };
+    const PixelRect all{0, 0, kAgreementWidth, kAgreementHeight};
+    cases.push_back({"ShiftedClippedBlades",
+                     [=](SceneDesc& scene) {
+                         add_ball(scene, gltf_plastic());
+                         add_lamp(scene);
+                         clipped(scene);
+                     },
+                     {.max_depth = 3},
+                     all,
+                     24});
+    cases.push_back({"Equirectangular",
+                     [](SceneDesc& scene) {
+                         add_ball(scene, gltf_plastic());
+                         add_lamp(scene);
+                         scene.cameras[0].type = CameraType::Equirectangular;
+                     },
+                     {.max_depth = 3},
+                     all,
+                     24});
+    cases.push_back({"FisheyeBeyondItsCircle",
+                     [](SceneDesc& scene) {
+                         add_ball(scene, gltf_plastic());
+                         add_lamp(scene);
+                         scene.cameras[0].type = CameraType::Fisheye;
+                         scene.cameras[0].fov = 1.5f;
+                         scene.cameras[0].shift = {0.1f, 0.05f};
+                     },
+                     {.max_depth = 3},
+                     all,
+                     24,
+                     {"path", "light"}});
     // The caustic on the floor and the shadow around it; the glass itself, which light paths cannot show, is outside.
     cases.push_back({"CausticCrop", under_lamp(glass(0.0f)), {.max_depth = 6}, {28, 38, 60, 48}, 512});
     // What the eye sees in mirrors and through smooth glass, which light tracing cannot.
     const std::vector<std::string> bdpt{"path", "bdpt"};
-    const PixelRect all{0, 0, kAgreementWidth, kAgreementHeight};
     cases.push_back({"Mirror", under_lamp(conductor(0.0f)), {.max_depth = 6}, all, 64, bdpt});
     cases.push_back({"SmoothGlass", under_lamp(glass(0.0f)), {.max_depth = 6}, all, 128, bdpt});
     cases.push_back({"NearlySmoothGlass", under_lamp(glass(0.2f)), {.max_depth = 6}, all, 128, bdpt});
@@ -182,6 +222,16 @@ std::vector<AgreementCase> all_cases() {
          all,
          16,
          bdpt});
+    cases.push_back({"ClippedBehindPanes",
+                     [=](SceneDesc& scene) {
+                         behind_panes(scene);
+                         clipped(scene);
+                         scene.cameras[0].clip.start = 1.0f;
+                     },
+                     {.max_depth = 3},
+                     all,
+                     24,
+                     bdpt});
     // Of a point, path finds no light that panes reflect.
     cases.push_back({"BehindPanesOneBounce",
                      [=](SceneDesc& scene) {

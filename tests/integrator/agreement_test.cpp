@@ -68,11 +68,12 @@ class CropAgreement : public testing::TestWithParam<std::tuple<const char*, Filt
 TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
     constexpr int kCrops = 8;  // of all instances
     const auto& [name, filter] = GetParam();
-    const AgreementCase& whole = agreement_case("LampPlastic");
+    AgreementCase whole = agreement_case("LampPlastic");
+    whole.window = {-2, 0, kAgreementWidth + 2, kAgreementHeight + 4};
     const World world = agreement_world(whole);
     const ThreadPool threads;
     const auto integrator = make_integrator(name, {.lengths = whole.lengths});
-    const PixelRect crops[] = {{18, 20, 50, 44}, {40, 0, 42, 48}};
+    const PixelRect crops[] = {{18, 20, 50, 44}, {20, 46, 44, 51}};
     for (const PixelRect& crop : crops) {
         AgreementCase cropped = whole;
         cropped.window = crop;

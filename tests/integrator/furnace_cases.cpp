@@ -62,6 +62,17 @@ std::vector<ClosedFormCase> empty_furnace_cases() {
     cases.push_back({"furnace_depth_1", half, 0.5, 1e-5, {.max_depth = 1}, kOne});
     cases.push_back({"furnace_depth_2", half, 0.75, 1e-5, {.max_depth = 2}, kOne});
     cases.push_back({"furnace_depth_5", half, 1.0 - std::exp2(-5.0), 1e-5, {.max_depth = 5}, kAll});
+    // Closed around cameras that see all of it, poles and seam and all.
+    constexpr std::uint32_t kFew = 16;
+    SceneDesc around = half;
+    around.cameras[0].type = CameraType::Equirectangular;
+    cases.push_back({"furnace_equirectangular", around, 1.0, 1e-5, {.max_depth = 64}, kAll, kFew});
+    around.cameras[0].type = CameraType::Fisheye;
+    around.cameras[0].fov = 5.0f;
+    around.cameras[0].circle = 1.5f;
+    cases.push_back({"furnace_fisheye", around, 1.0, 1e-5, {.max_depth = 64}, kAll, kFew});
+    around.cameras[0].fisheye = FisheyeType::Equisolid;
+    cases.push_back({"furnace_fisheye_equisolid", around, 1.0, 1e-5, {.max_depth = 64}, {"path", "light"}, kFew});
     // Windows of lengths that together are "furnace_depth_5".
     cases.push_back({"furnace_edges_2", half, 0.25, 1e-5, {.max_depth = 2, .min_depth = 2}, kOne});
     cases.push_back({"furnace_edges_3_to_4", half, 0.1875, 1e-5, {.max_depth = 4, .min_depth = 3}, kAll});

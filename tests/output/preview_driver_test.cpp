@@ -30,6 +30,23 @@ OutputFrame make_frame(int channels, std::vector<float> pixels) {
     return frame;
 }
 
+// Of a window that goes beyond the image, the middle two of four pixels lie within.
+TEST(PreviewDriver, ShowsTheImageWithoutItsOverscan) {
+    OutputFrame frame = make_frame(3, {0.18f, 0, 0, 0.5f, 0, 0, 0, 0, 1, 0, 0.5f, 0});
+    frame.crop_x = -1;
+    frame.full_width = 2;
+    frame.full_height = 1;
+    const TestFolder folder;
+    PreviewDriver(folder / "a.png", ColorConfig::built_in()).write(frame);
+    const Image8 image = read_image_8bit(folder / "a.png");
+    EXPECT_EQ(image.width, 2);
+    EXPECT_EQ(image.height, 1);
+    EXPECT_EQ(image.pixels, (std::vector<std::uint8_t>{188, 0, 0, 0, 0, 255}));
+    // A window that lies beside the image is shown as it is.
+    frame.crop_x = 5;
+    EXPECT_EQ(preview_of(frame).size(), 12u);
+}
+
 // sRGB of 0.18, 0.5 and 0.21586: IEC 61966-2-1:1999, rounded to 8 bits.
 TEST(PreviewDriver, KnownColoursHaveKnownBytes) {
     const OutputFrame frame = make_frame(3, {0.0f, 1.0f, 0.18f, 0.5f, 0.21586f, 2.0f, -0.1f, 0.0005f, 0.9f});

@@ -79,6 +79,14 @@ TEST_P(Determinism, ACropIsThePartOfTheWholeBitForBit) {
             EXPECT_EQ(std::memcmp(expected, actual, row * sizeof(float)), 0) << "row " << y;
         }
     }
+    const PixelRect beyond{-9, -7, kWidth + 4, kHeight + 3};
+    options.window = beyond;
+    const std::vector<float> larger = render_now(world, integrator, options, 2).film.resolve();
+    for (int y = 0; y < kHeight; ++y) {
+        const float* expected = &whole[static_cast<std::size_t>(y * kWidth) * 4];
+        const float* actual = &larger[static_cast<std::size_t>((y - beyond.y0) * beyond.width() - beyond.x0) * 4];
+        EXPECT_EQ(std::memcmp(expected, actual, kWidth * 4 * sizeof(float)), 0) << "row " << y << " with overscan";
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Determinism,

@@ -1,6 +1,7 @@
 #include "render/tiles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,8 +13,8 @@ namespace etendue::test {
 namespace {
 
 TEST(Tiles, CoverTheWindowExactlyOnce) {
-    const PixelRect windows[] = {{0, 0, 1, 1}, {0, 0, 32, 32},   {0, 0, 33, 31},   {0, 0, 640, 360},
-                                 {5, 7, 6, 8}, {31, 31, 33, 33}, {32, 64, 64, 96}, {17, 40, 301, 111}};
+    const PixelRect windows[] = {{0, 0, 1, 1},     {0, 0, 32, 32},   {0, 0, 33, 31},     {0, 0, 640, 360}, {5, 7, 6, 8},
+                                 {31, 31, 33, 33}, {32, 64, 64, 96}, {17, 40, 301, 111}, {-8, -40, 70, 33}};
     for (const PixelRect& window : windows) {
         std::vector<int> covered(window.area(), 0);
         for (const PixelRect& tile : make_tiles(window)) {
@@ -30,10 +31,12 @@ TEST(Tiles, CoverTheWindowExactlyOnce) {
 }
 
 TEST(Tiles, LieOnTheGridOfTheFullImage) {
-    for (const PixelRect& tile : make_tiles({17, 40, 301, 111})) {
-        EXPECT_EQ(tile.x0 / kTileSize, (tile.x1 - 1) / kTileSize);
-        EXPECT_EQ(tile.y0 / kTileSize, (tile.y1 - 1) / kTileSize);
-    }
+    const auto column = [](int pixel) { return std::floor(static_cast<double>(pixel) / kTileSize); };
+    for (const PixelRect& window : {PixelRect{17, 40, 301, 111}, PixelRect{-40, -8, 64, 40}})
+        for (const PixelRect& tile : make_tiles(window)) {
+            EXPECT_EQ(column(tile.x0), column(tile.x1 - 1));
+            EXPECT_EQ(column(tile.y0), column(tile.y1 - 1));
+        }
 }
 
 TEST(Tiles, GoRowByRow) {

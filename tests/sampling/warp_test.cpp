@@ -110,6 +110,31 @@ TEST(Warp, DiskInvertsAndIsUniform) {
     EXPECT_NEAR(check.pdf_integral, 1.0, 2e-3);
 }
 
+TEST(Warp, RegularPolygonsInvertAndAreUniform) {
+    const int shapes[] = {3, 8};
+    for (const int corners : shapes) {
+        SCOPED_TRACE(corners);
+        for (const Vec2f& u : inner_grid()) {
+            const Vec2f p = square_to_regular_polygon(u, corners);
+            ASSERT_GT(regular_polygon_pdf_area(p, corners), 0.0f);
+            const Vec2f back = regular_polygon_to_square(p, corners);
+            ASSERT_NEAR(back.x, u.x, 1e-5f);
+            ASSERT_NEAR(back.y, u.y, 1e-5f);
+        }
+        const auto sampler = [&](Random& random) -> std::optional<Point> {
+            const Vec2f p = square_to_regular_polygon(random.next_2d(), corners);
+            return Point{static_cast<double>(p.x), static_cast<double>(p.y)};
+        };
+        const auto density = [&](double x, double y) {
+            return static_cast<double>(
+                regular_polygon_pdf_area({static_cast<float>(x), static_cast<float>(y)}, corners));
+        };
+        const SamplerCheck check = check_rect_sampler({-1.0, 1.0, -1.0, 1.0}, sampler, density);
+        EXPECT_GE(check.chi2.p_value, sidak_level(kFamilyLevel, std::size(shapes))) << check.chi2.str();
+        EXPECT_NEAR(check.pdf_integral, 1.0, 5e-3);
+    }
+}
+
 TEST(Warp, TriangleInvertsAndIsUniform) {
     for (const Vec2f& u : inner_grid()) {
         const Vec2f b = square_to_triangle(u);

@@ -138,7 +138,7 @@ const Defect kDefects[] = {
     {"WidthHuge", "resolution is [65537", [](SceneDesc& s) { s.settings.film.width = 65537; }},
     {"CropOutside", "crop",
      [](SceneDesc& s) {
-         s.settings.film.crop = {{0, 0, 2000, 10}};
+         s.settings.film.crop = {{0, 0, 2100, 10}};
      }},
     {"CropEmpty", "crop",
      [](SceneDesc& s) {
@@ -172,6 +172,27 @@ const Defect kDefects[] = {
          s.cameras[0].lens_radius = 0.01f;
          s.cameras[0].focus_distance = 1e30f;
      }},
+    {"FovZero", "fov is 0",
+     [](SceneDesc& s) {
+         s.cameras[0].type = CameraType::Fisheye;
+         s.cameras[0].fov = 0.0f;
+     }},
+    {"PanoramaShifted", "has no shift",
+     [](SceneDesc& s) {
+         s.cameras[0].type = CameraType::Equirectangular;
+         s.cameras[0].shift.x = 0.1f;
+     }},
+    {"OverscanFraction", "a whole number of pixels", [](SceneDesc& s) { s.settings.film.overscan = 2.5f; }},
+    {"OverscanLarge", "more than the image", [](SceneDesc& s) { s.settings.film.overscan = 60000.0f; }},
+    {"ShiftFar", "shift is 101", [](SceneDesc& s) { s.cameras[0].shift.y = 101.0f; }},
+    {"ClipEmpty", "the clipping is from 2 to 2",
+     [](SceneDesc& s) {
+         s.cameras[0].clip = {2.0f, 2.0f};
+     }},
+    {"ClipFar", "the camera's clipping reaches", [](SceneDesc& s) { s.cameras[0].clip.start = 1e30f; }},
+    {"TwoBlades", "blades is 2", [](SceneDesc& s) { s.cameras[0].aperture.blades = 2; }},
+    {"NoAperture", "aperture ratio", [](SceneDesc& s) { s.cameras[0].aperture.ratio = 0.0f; }},
+    {"PixelAspectZero", "pixel_aspect", [](SceneDesc& s) { s.settings.film.pixel_aspect = 0.0f; }},
     {"LightFar", "the light reaches", [](SceneDesc& s) { s.lights[0].to_world[3][0] = 1e19f; }},
     {"LightSamplesMany", "light_samples", [](SceneDesc& s) { s.settings.integrator.light_samples = 65; }},
     {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.lengths.min_depth = 99; }},

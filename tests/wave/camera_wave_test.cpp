@@ -87,7 +87,7 @@ TEST_F(CameraWave, OnlyChosenPixelsGetSamplesEachItsOwn) {
 
 TEST_F(CameraWave, RaysPassThroughTheirPixels) {
     generate(0, camera_sample_count(job_));
-    const Mat4f to_screen = world_to_screen(world_.camera().model());
+    const Mat4f to_screen = world_to_screen(world_.camera().model()).value();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         Vec3f screen;
         to_screen.multVecMatrix(rays_[i].origin + rays_[i].direction, screen);

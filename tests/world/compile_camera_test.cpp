@@ -36,6 +36,67 @@ TEST(CompileCamera, MakesEachType) {
     EXPECT_EQ(orthographic.half_width, 4.0f);
 }
 
+TEST(CompileCamera, ShiftsByTheLongerSideOfTheViewAsItIsShown) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = 300;
+    scene.settings.film.height = 200;
+    scene.cameras[0].yfov = 1.0f;
+    scene.cameras[0].shift = {0.1f, -0.25f};
+    const float half_height = std::tan(0.5f);
+    const auto wide = std::get<PinholeCamera>(compile_camera(scene));
+    EXPECT_FLOAT_EQ(wide.center.x, 0.1f * 3.0f * half_height);
+    EXPECT_FLOAT_EQ(wide.center.y, -0.25f * 3.0f * half_height);
+    // Narrow pixels make it a portrait.
+    scene.settings.film.pixel_aspect = 0.5f;
+    const auto tall = std::get<PinholeCamera>(compile_camera(scene));
+    EXPECT_FLOAT_EQ(tall.half_width, 0.75f * half_height);
+    EXPECT_FLOAT_EQ(tall.half_height, half_height);
+    EXPECT_FLOAT_EQ(tall.center.x, 0.1f * 2.0f * half_height);
+    scene.cameras[0].type = CameraType::Orthographic;
+    scene.cameras[0].ymag = 3.0f;
+    EXPECT_FLOAT_EQ(std::get<OrthographicCamera>(compile_camera(scene)).center.y, -0.25f * 6.0f);
+}
+
+TEST(CompileCamera, HasClippingAndAperture) {
+    SceneDesc scene = empty_scene();
+    EXPECT_TRUE(std::isinf(clip_of(compile_camera(scene)).end));
+    scene.cameras[0].clip = {0.5f, 7.0f};
+    scene.cameras[0].lens_radius = 0.1f;
+    scene.cameras[0].aperture = {.blades = 6, .rotation = 0.2f, .ratio = 1.5f};
+    const Camera camera = compile_camera(scene);
+    EXPECT_EQ(clip_of(camera).start, 0.5f);
+    EXPECT_EQ(clip_of(camera).end, 7.0f);
+    const auto lens = std::get<ThinLensCamera>(camera);
+    EXPECT_EQ(lens.aperture.blades, 6);
+    EXPECT_EQ(lens.aperture.rotation, 0.2f);
+    EXPECT_EQ(lens.aperture.ratio, 1.5f);
+}
+
+TEST(CompileCamera, FisheyesTouchTheNearerEdgesOfTheImage) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = 300;
+    scene.settings.film.height = 200;
+    CameraDesc& camera = scene.cameras[0];
+    camera.type = CameraType::Fisheye;
+    camera.fov = 3.0f;
+    const auto wide = std::get<FisheyeCamera>(compile_camera(scene));
+    EXPECT_FLOAT_EQ(wide.half_width, 1.5f);
+    EXPECT_FLOAT_EQ(wide.half_height, 1.0f);
+    EXPECT_EQ(wide.half_angle, 1.5f);
+    EXPECT_EQ(wide.mapping, FisheyeMapping::Equidistant);
+    scene.settings.film.width = 100;
+    camera.circle = 1.25f;
+    camera.fisheye = FisheyeType::Equisolid;
+    camera.clip.start = 0.5f;
+    const auto tall = std::get<FisheyeCamera>(compile_camera(scene));
+    EXPECT_FLOAT_EQ(tall.half_width, 0.8f);
+    EXPECT_FLOAT_EQ(tall.half_height, 1.6f);
+    EXPECT_EQ(tall.mapping, FisheyeMapping::Equisolid);
+    EXPECT_EQ(tall.clip.start, 0.5f);
+    camera.type = CameraType::Equirectangular;
+    EXPECT_EQ(std::get<EquirectangularCamera>(compile_camera(scene)).clip.start, 0.5f);
+}
+
 TEST(CompileCamera, TakesTheNamedOneAndSuggestsTheNearest) {
     SceneDesc scene = empty_scene();
     scene.cameras.emplace_back().name = "close-up";

@@ -24,6 +24,7 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
     if (job.aovs != nullptr && job.aovs->needs_first_hits()) {
         hits_.resize(count);
         intersect_batch(world, job, RayKind::Primary, camera_rays_, hits_, counters);
+        hide_unseen_hits(world, camera_rays_, hits_);
         find_first_hits(world, job, samples_, camera_rays_, hits_, tile);
     }
     stamp(job.profile, Stage::Generate);

@@ -30,7 +30,10 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     for (int depth = 1; active_ > 0; ++depth) {
         intersect_batch(world, job, depth == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
                         std::span(paths_.hits).first(active_), counters);
-        if (depth > 1 && world.traits().hides_surfaces) look_behind_hidden(world, job, counters);
+        if (depth == 1)
+            hide_unseen_hits(world, camera_rays, std::span(paths_.hits).first(count));
+        else
+            look_again(world, job, counters);
         light_.count_rays(active_);
         if (depth == 1) {
             const std::span hits = std::span(paths_.hits).first(count);
@@ -46,11 +49,16 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     stamp(job.profile, Stage::Film);
 }
 
-void PathWave::look_behind_hidden(const World& world, const TileJob& job, RenderCounters& counters) {
+void PathWave::look_again(const World& world, const TileJob& job, RenderCounters& counters) {
+    if (!world.traits().hides_surfaces && !world.traits().clips_far) return;
     const RayColumns rays = paths_.rays(active_);
-    for (std::size_t i = 0; i < active_; ++i)
-        if (path_history::is_seen(paths_.history[i]) && world.materials().is_hidden_from_camera(paths_.hits[i]))
-            paths_.hits[i] = intersect_one(world, job, RayKind::Primary, rays[i], counters);
+    for (std::size_t i = 0; i < active_; ++i) {
+        if (!path_history::is_seen(paths_.history[i])) continue;
+        Hit& hit = paths_.hits[i];
+        if (world.materials().is_hidden_from_camera(hit))
+            hit = intersect_one(world, job, RayKind::Primary, rays[i], counters);
+        if (world.traits().clips_far && world.camera().is_too_far(rays[i], hit)) hit = {};
+    }
 }
 
 template <typename TraceShadowRays>

@@ -30,8 +30,8 @@ class PathWave final : public IntegratorScratch {
                std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
   private:
-    /// Traces again, as from the camera, what the eye sees through panes and is hidden from it.
-    void look_behind_hidden(const World& world, const TileJob& job, RenderCounters& counters);
+    /// Finds what the eye sees through panes where rays have hit what is hidden from it or too far away.
+    void look_again(const World& world, const TileJob& job, RenderCounters& counters);
     /// Shades all paths, block by block, and calls `trace_shadow_rays` whenever there are enough shadow rays for a
     /// batch.
     template <typename TraceShadowRays>

@@ -35,6 +35,13 @@ constexpr std::uint64_t kBytesOfPlacedPrimitive = 64;
 
 constexpr int kNoParent = -1;
 
+/// Returns the planes that the file's camera has; without a far one, it sees everything.
+ClipDesc clip_of(const auto& camera) {
+    ClipDesc clip{.start = static_cast<float>(camera.znear)};
+    if (camera.zfar > 0.0) clip.end = static_cast<float>(camera.zfar);
+    return clip;
+}
+
 /// The parent of every node. Errors for nodes with two.
 std::vector<int> find_parents(const GltfDocument& document, ProblemList& problems) {
     const std::vector<tinygltf::Node>& nodes = document.model.nodes;
@@ -331,9 +338,11 @@ class Placer {
             camera.ymag = static_cast<float>(std::abs(source.orthographic.ymag));
             const double aspect = std::abs(source.orthographic.xmag / source.orthographic.ymag);
             camera.aspect_ratio = std::isfinite(aspect) ? static_cast<float>(aspect) : 0.0f;
+            camera.file_clip = clip_of(source.orthographic);
         } else {
             camera.yfov = static_cast<float>(source.perspective.yfov);
             camera.aspect_ratio = static_cast<float>(source.perspective.aspectRatio);
+            camera.file_clip = clip_of(source.perspective);
         }
         scene_.cameras.push_back(std::move(camera));
     }

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -85,60 +84,6 @@ void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& prob
     }
 }
 
-constexpr float kUsualSensorWidth = 36.0f;  ///< millimetres, of 35 mm film
-
-/// Returns the height of the sensor in millimetres, whose longer side is `sensor_width`, for an image of this width
-/// over height.
-float sensor_height(float sensor_width, float aspect) {
-    return sensor_width / std::max(aspect, 1.0f);
-}
-
-/// Applies focal length and f-number to a perspective camera.
-void apply_lens(const LensSettings& lens, float image_aspect, CameraDesc& camera) {
-    const float aspect = camera.aspect_ratio > 0.0f ? camera.aspect_ratio : image_aspect;
-    const float height = sensor_height(lens.sensor_width.value_or(kUsualSensorWidth), aspect);
-    if (lens.focal_length) camera.yfov = 2.0f * std::atan(0.5f * height / *lens.focal_length);
-    camera.focal_length = 0.5f * height / std::tan(0.5f * camera.yfov);
-    constexpr float kMetresPerMillimetre = 1e-3f;
-    if (lens.f_stop) camera.lens_radius = camera.focal_length * kMetresPerMillimetre / (2.0f * *lens.f_stop);
-}
-
-/// Applies what the document says of the lens to all cameras, whichever is chosen in the end.
-void apply_lenses(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
-    const LensSettings& lens = json.lens;
-    const bool has_lens = lens.f_stop || lens.focal_length || lens.sensor_width;
-    const FilmSettings& film = scene.settings.film;
-    const float aspect = static_cast<float>(film.width) / static_cast<float>(film.height);
-    for (CameraDesc& camera : scene.cameras) {
-        camera.lens_radius = json.lens_radius.value_or(camera.lens_radius);
-        camera.focus_distance = json.focus_distance.value_or(camera.focus_distance);
-        if (has_lens && camera.type == CameraType::Perspective) apply_lens(lens, aspect, camera);
-    }
-    if ((json.lens_radius || json.focus_distance || has_lens || !lens.focus_node.empty()) && scene.cameras.empty())
-        problems.warning(json.location, "what is said of the lens is ignored: the scene has no camera");
-}
-
-/// Focuses every camera on the node that the document names, but those that it lies behind; an error if it does
-/// behind the one that is chosen.
-void focus_on_node(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
-    const std::string& name = json.lens.focus_node;
-    const SourceLocation where{json.location.file, "/focus_node"};
-    if (name.empty() || !check_name(scene.nodes, "node", name, where, problems)) return;
-    const Vec3f place = std::ranges::find(scene.nodes, name, &NodeDesc::name)->position();
-    const std::string& wanted = scene.settings.camera;
-    for (CameraDesc& camera : scene.cameras) {
-        const Vec3f back(camera.to_world[2][0], camera.to_world[2][1], camera.to_world[2][2]);
-        const Vec3f eye(camera.to_world[3][0], camera.to_world[3][1], camera.to_world[3][2]);
-        const float distance = -dot(place - eye, normalize(back));
-        const bool is_chosen = &camera == (wanted.empty() ? scene.cameras.data() : find_camera(scene, wanted));
-        if (distance > 0.0f)
-            camera.focus_distance = distance;
-        else if (is_chosen)
-            problems.error(where, fmt::format("the node '{}' is not in front of the camera '{}'", shown(name),
-                                              shown(camera.name)));
-    }
-}
-
 void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
     if (json.camera) {
         if (std::ranges::find(scene.cameras, json.camera->name, &CameraDesc::name) != scene.cameras.end()) {
@@ -149,8 +94,7 @@ void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problem
         if (scene.origin != Vec3d(0.0) && !problems.has_errors())
             aim(json.camera_aim, scene.origin, scene.cameras.back());
     }
-    apply_lenses(json, scene, problems);
-    focus_on_node(json, scene, problems);
+    apply_camera_changes(json.lens, json.cameras, scene, problems);
 }
 
 void apply_environment(const RenderJson& json, std::span<const std::filesystem::path> assets, SceneDesc& scene,

@@ -146,6 +146,13 @@ bool JsonObject::color(std::string_view key, const NumberRange& range, Rgb& out)
     return true;
 }
 
+bool JsonObject::vector(std::string_view key, Vec2f& out) {
+    std::array<float, 2> components{};
+    if (!read_numbers(key, kAnyNumber, components)) return false;
+    out = {components[0], components[1]};
+    return true;
+}
+
 bool JsonObject::vector(std::string_view key, Vec3f& out) {
     std::array<float, 3> components{};
     if (!read_numbers(key, kAnyNumber, components)) return false;

@@ -34,6 +34,7 @@ class JsonObject {
     bool number(std::string_view key, const NumberRange& range, float& out);
     bool number(std::string_view key, const NumberRange& range, double& out);
     bool color(std::string_view key, const NumberRange& range, Rgb& out);
+    bool vector(std::string_view key, Vec2f& out);
     bool vector(std::string_view key, Vec3f& out);
     bool vector(std::string_view key, Vec3d& out);
     /// The four numbers of a quaternion, x, y, z and w.

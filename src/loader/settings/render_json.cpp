@@ -21,10 +21,6 @@ constexpr NumberRange kSurfaceIor{.min = 1.0, .max = 3.0};
 constexpr NumberRange kAnisotropy{.min = -0.999, .max = 0.999};
 constexpr std::int64_t kMaxPriority = 1'000'000;
 
-constexpr std::array<std::pair<std::string_view, CameraType>, 2> kNamedCameraTypes{{
-    {"perspective", CameraType::Perspective},
-    {"orthographic", CameraType::Orthographic},
-}};
 constexpr auto kMetals = [] {
     std::array<std::pair<std::string_view, std::string_view>, kMetalNames.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kMetalNames[i], kMetalNames[i]};
@@ -67,7 +63,6 @@ CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim
     camera.location = where;
     JsonObject object(value, where, problems);
     object.text("name", camera.name);
-    object.choice("type", kNamedCameraTypes, camera.type);
     for (const std::string_view key : {"position", "look_at"}) {
         if (!object.has(key)) problems.error(where, fmt::format("'{}' is missing", key));
     }
@@ -78,6 +73,7 @@ CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim
     object.number("ymag", kPositive, camera.ymag);
     object.number("lens_radius", kNotNegative, camera.lens_radius);
     view.focuses = !object.number("focus_distance", kPositive, camera.focus_distance);
+    apply_view(read_view(object), camera);
     if (has_position && has_look_at && check_aim(view, object)) aim(view, Vec3d(0.0), camera);
     object.finish();
     return camera;
@@ -205,6 +201,12 @@ void read_table(JsonObject& object, std::string_view parent, RenderSettings& set
 
 void read_overrides(JsonObject& object, RenderJson& out) {
     ProblemList& problems = object.problems();
+    if (const Json* member = object.member("cameras")) {
+        JsonObject cameras(*member, object.at("cameras"), problems);
+        cameras.each([&](const std::string& name, const Json& value) {
+            out.cameras[name] = read_camera_change(value, cameras.at(name), problems);
+        });
+    }
     if (const Json* member = object.member("materials")) {
         JsonObject materials(*member, object.at("materials"), problems);
         materials.each([&](const std::string& name, const Json& value) {
@@ -219,21 +221,6 @@ void read_overrides(JsonObject& object, RenderJson& out) {
     }
 }
 
-/// Reads what is said of the lens in a photographer's words. Errors for what is said twice.
-void read_lens(JsonObject& object, RenderJson& out) {
-    const auto number = [&](std::string_view key, std::optional<float>& value) {
-        if (float read = 0.0f; object.number(key, kPositive, read)) value = read;
-    };
-    number("f_stop", out.lens.f_stop);
-    number("focal_length", out.lens.focal_length);
-    number("sensor_width", out.lens.sensor_width);
-    object.text("focus_node", out.lens.focus_node);
-    if (out.lens.f_stop && out.lens_radius)
-        object.problems().error(object.at("f_stop"), "lens_radius says the same: leave one of both out");
-    if (!out.lens.focus_node.empty() && out.focus_distance)
-        object.problems().error(object.at("focus_node"), "focus_distance says the same: leave one of both out");
-}
-
 /// Reads the whole document.
 void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     JsonObject object(value, out.location, problems);
@@ -243,9 +230,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     for (std::size_t i = 0; i < settings.aovs.size(); ++i)
         settings.aovs[i].location = {out.location.file, fmt::format("/aovs/{}", i)};
     read_camera_member(object, out);
-    if (float radius = 0.0f; object.number("lens_radius", kNotNegative, radius)) out.lens_radius = radius;
-    if (float distance = 0.0f; object.number("focus_distance", kPositive, distance)) out.focus_distance = distance;
-    read_lens(object, out);
+    out.lens = read_lens(object);
     if (const Json* member = object.member("environment")) {
         out.environment = read_environment(*member, object.at("environment"), problems);
     }

@@ -1,6 +1,7 @@
 // render.json: what it says, before it meets the scene. Its keys are described in docs/render-json.md.
 #pragma once
 
+#include "loader/settings/camera_changes.h"
 #include "loader/settings/light_override.h"
 #include "loader/settings/material_factors.h"
 #include "scene/scene_desc.h"
@@ -45,22 +46,13 @@ struct CameraAim {
 /// scene with this origin.
 void aim(const CameraAim& aim, const Vec3d& origin, CameraDesc& camera);
 
-/// Describes the lens as photographers do, in place of its radius and focus distance.
-struct LensSettings {
-    std::optional<float> f_stop;        ///< focal length over the diameter of the lens, > 0
-    std::optional<float> focal_length;  ///< millimetres, > 0; none for that of the camera's field of view
-    std::optional<float> sensor_width;  ///< millimetres of the image's longer side, > 0
-    std::string focus_node;             ///< name of the node in focus; empty for none
-};
-
 struct RenderJson {
-    std::string scene;                           ///< file name; empty for the only one
-    RenderSettings settings;                     ///< `camera` is the name chosen
-    std::optional<CameraDesc> camera;            ///< described here; chosen too
-    CameraAim camera_aim;                        ///< of that
-    std::optional<float> lens_radius;            ///< of whichever camera is chosen
-    std::optional<float> focus_distance;         ///< the same
-    LensSettings lens;                           ///< its lens in a photographer's words
+    std::string scene;                 ///< file name; empty for the only one
+    RenderSettings settings;           ///< `camera` is the name chosen
+    std::optional<CameraDesc> camera;  ///< described here; chosen too
+    CameraAim camera_aim;              ///< of that
+    LensSettings lens;                 ///< of whichever camera is chosen
+    std::map<std::string, CameraChange> cameras;
     std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved
     std::map<std::string, MaterialOverride> materials;
     std::map<std::string, LightOverride> lights;

@@ -43,6 +43,7 @@ struct AovSet {
     std::vector<FirstHitValue> values{};
     /// Lists the values of the first surface of a pixel's nearest sample, in the order of their channels.
     std::vector<FirstHitValue> nearest{};
+    float frames_of_shutter = 0.0f;  ///< how many frames the shutter is open for; 0 if it is not
     std::vector<MatteIds> mattes{};  ///< one for each matte of the layout
 
     /// Puts buckets behind all layers that there are.

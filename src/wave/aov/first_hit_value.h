@@ -22,6 +22,7 @@ enum class FirstHitValue {
     ObjectId,    ///< index of the instance, from 1 on
     MaterialId,  ///< index of the material, from 1 on
     Motion,      ///< pixels by which the point moves on the film while the shutter is open, x right and y down
+    Vector,      ///< pixels of x and y, right and up, from the point to itself a frame before, and from a frame after
 };
 
 struct FirstHitEntry {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace etendue {
@@ -70,8 +71,20 @@ class FirstHit {
                 // What is behind the camera then has no place on the film.
                 const std::optional<Vec2f> first = position_on_film(0.0f);
                 const std::optional<Vec2f> last = position_on_film(1.0f);
-                const Vec2f way = first && last ? *last - *first : Vec2f(0.0f, 0.0f);
+                const Vec2f way = first && last ? way_on_film(*first, *last) : Vec2f(0.0f, 0.0f);
                 return put({way.x, way.y});
+            }
+            case FirstHitValue::Vector: {
+                const std::optional<Vec2f> first = position_on_film(0.0f);
+                const std::optional<Vec2f> middle = position_on_film(0.5f);
+                const std::optional<Vec2f> last = position_on_film(1.0f);
+                const float frames = job_.aovs->frames_of_shutter;
+                if (!first || !middle || !last || !(frames > 0.0f)) return put({0.0f, 0.0f, 0.0f, 0.0f});
+                // From half of the shutter's time to a frame; Blender's y is up.
+                const Vec2f scale(2.0f / frames, -2.0f / frames);
+                const Vec2f before = way_on_film(*middle, *first) * scale;
+                const Vec2f after = way_on_film(*last, *middle) * scale;
+                return put({before.x, before.y, after.x, after.y});
             }
         }
     }
@@ -88,6 +101,14 @@ class FirstHit {
         if (!(view.importance_area > 0.0f)) return std::nullopt;
         return Vec2f(view.film.x * static_cast<float>(job_.full_width),
                      view.film.y * static_cast<float>(job_.full_height));
+    }
+
+    /// Returns the way from `first` to `last`, the shorter one around if the film goes on beyond its sides.
+    [[nodiscard]] Vec2f way_on_film(const Vec2f& first, const Vec2f& last) const {
+        Vec2f way = last - first;
+        const auto width = static_cast<float>(job_.full_width);
+        if (world_.traits().film_wraps) way.x -= width * std::round(way.x / width);
+        return way;
     }
 
     const Albedo& albedo() {

@@ -4,6 +4,7 @@
 #include "core/ray.h"
 #include "film/splat_film.h"
 #include "wave/aov/aov_set.h"
+#include "wave/film_repeats.h"
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
 
@@ -28,7 +29,7 @@ struct CameraView {
     if (!(view.camera.importance_area > 0.0f)) return std::nullopt;
     view.pixel = {view.camera.film.x * static_cast<float>(job.full_width),
                   view.camera.film.y * static_cast<float>(job.full_height)};
-    if (!reaches(job.window, *job.filter, view.pixel)) return std::nullopt;
+    if (!is_in_view(world, job, view.pixel)) return std::nullopt;
     const Vec3f to_lens = view.camera.lens - position;
     view.distance = length(to_lens);
     view.direction = to_lens * (1.0f / view.distance);

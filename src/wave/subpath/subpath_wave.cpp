@@ -71,6 +71,10 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
             for (std::size_t i = 0; i < states_.size(); ++i)
                 if (states_[i].index == kDirectlySeen && job.world.materials().is_hidden_from_camera(hits_[i]))
                     hits_[i] = intersect_one(job.world, job.job, RayKind::Primary, rays_[i], counters);
+        if (job.world.traits().clips_far && end_ == SubpathEnd::AtEye)
+            for (std::size_t i = 0; i < states_.size(); ++i)
+                if (states_[i].index == kDirectlySeen && job.world.camera().is_too_far(rays_[i], hits_[i]))
+                    hits_[i] = {};
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);

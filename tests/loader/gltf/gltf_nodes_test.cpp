@@ -1,5 +1,7 @@
 #include "loader/gltf/gltf_builder.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace etendue {
@@ -250,12 +252,17 @@ TEST(Cameras, TakeTheirNodesTransformWithoutScale) {
     EXPECT_EQ(perspective.name, "node");
     EXPECT_FLOAT_EQ(perspective.yfov, 0.5f);
     EXPECT_FLOAT_EQ(perspective.aspect_ratio, 1.5f);
+    EXPECT_EQ(perspective.file_clip.start, 0.1f);
+    EXPECT_TRUE(std::isinf(perspective.file_clip.end));
+    EXPECT_EQ(perspective.clip.start, 0.0f) << "nobody has asked for it";
     EXPECT_NEAR(perspective.to_world.determinant(), 1.0f, 1e-5f);
     expect_near(origin(perspective.to_world), {0, 0, 5});
     const CameraDesc& flat = loaded.scene.cameras[1];
     EXPECT_EQ(flat.type, CameraType::Orthographic);
     EXPECT_FLOAT_EQ(flat.ymag, 2.0f);
     EXPECT_FLOAT_EQ(flat.aspect_ratio, 2.0f);
+    EXPECT_EQ(flat.file_clip.start, 0.0f);
+    EXPECT_EQ(flat.file_clip.end, 9.0f);
     EXPECT_EQ(flat.name, "flat");
     EXPECT_EQ(loaded.scene.cameras[2].name, "flat-2");
 }

@@ -82,8 +82,8 @@ TEST(RenderJson, EverySettingIsRead) {
     EXPECT_EQ(s.film.height, 20);
     EXPECT_EQ(s.film.crop, (std::array{1, 2, 3, 4}));
     EXPECT_EQ(s.camera, "c");
-    EXPECT_EQ(parsed.json.lens_radius, 0.5f);
-    EXPECT_EQ(parsed.json.focus_distance, 4.0f);
+    EXPECT_EQ(parsed.json.lens.lens_radius, 0.5f);
+    EXPECT_EQ(parsed.json.lens.focus_distance, 4.0f);
     EXPECT_EQ(s.film.filter, PixelFilterType::Mitchell);
     EXPECT_EQ(s.film.filter_radius, 2.5f);
     EXPECT_EQ(parsed.json.environment->image, "i.exr");
@@ -106,7 +106,7 @@ TEST(RenderJson, UnknownKeysSuggestTheNearest) {
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'spp'", "/sppp"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'max_depth'", "/integrator/maxdepth"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'view'", "/color/veiw"));
-    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "there are 'filter', 'filter_radius'", "/film/zzz"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "'filter', 'filter_radius'", "/film/zzz"));
     EXPECT_EQ(parsed.problems.error_count(), 4u);
     EXPECT_NE(parsed.problems.all()[0].where.file.find("render.json"), std::string::npos);
 }
@@ -314,6 +314,59 @@ TEST(RenderJson, LensesAsPhotographersSayThem) {
     EXPECT_NEAR(camera(load_lens(R"({"focus_node": "in focus"})")).focus_distance, 4.0f, 1e-6f);
 }
 
+// What is said of one camera goes before what is said of all, which it keeps the rest of.
+TEST(RenderJson, ChangesCamerasByName) {
+    const LoadedScene loaded = load_lens(R"({"resolution": [300, 200], "lens_radius": 0.5, "focus_distance": 9,
+        "sensor_width": 24, "cameras": {"main": {"f_stop": 2, "focal_length": 50, "shift": [0.25, -0.5], "clip": true,
+        "clip_end": 7, "blades": 5, "blade_rotation": 0.5, "aperture_ratio": 2}}})");
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const CameraDesc& camera = loaded.scene.cameras.at(0);
+    EXPECT_NEAR(camera.yfov, 2.0f * std::atan(8.0f / 50.0f), 1e-6f);
+    EXPECT_NEAR(camera.lens_radius, 0.0125f, 1e-8f);
+    EXPECT_EQ(camera.focus_distance, 9.0f);
+    EXPECT_EQ(camera.shift, Vec2f(0.25f, -0.5f));
+    EXPECT_EQ(camera.clip.start, camera.file_clip.start);
+    EXPECT_GT(camera.clip.start, 0.0f);
+    EXPECT_EQ(camera.clip.end, 7.0f);
+    EXPECT_EQ(camera.aperture.blades, 5);
+    EXPECT_EQ(camera.aperture.rotation, 0.5f);
+    EXPECT_EQ(camera.aperture.ratio, 2.0f);
+    const CameraDesc plain = load_lens("{}").scene.cameras.at(0);
+    EXPECT_EQ(plain.clip.start, 0.0f) << "clipped without being asked to";
+    EXPECT_TRUE(std::isinf(plain.clip.end));
+    EXPECT_NEAR(load_lens(R"({"cameras": {"main": {"focus_node": "in focus"}}, "focus_distance": 3})")
+                    .scene.cameras.at(0)
+                    .focus_distance,
+                4.0f, 1e-6f);
+}
+
+// Of a lens of 8 mm, an equisolid circle of 180 degrees is 4 · 8 mm · sin(45°) across.
+TEST(RenderJson, MakesPanoramasOfCameras) {
+    const LoadedScene loaded = load_lens(R"({"resolution": [300, 200], "cameras": {"main": {"type": "fisheye",
+        "mapping": "equisolid", "focal_length": 8, "sensor_width": 36}}})");
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const CameraDesc& camera = loaded.scene.cameras.at(0);
+    EXPECT_EQ(camera.type, CameraType::Fisheye);
+    EXPECT_EQ(camera.fisheye, FisheyeType::Equisolid);
+    EXPECT_EQ(camera.fov, kPi);
+    EXPECT_NEAR(camera.circle, 32.0f * std::sqrt(0.5f) / 24.0f, 1e-5f);
+    const LoadedScene round = load_lens(R"({"cameras": {"main": {"type": "equirectangular"}}, "f_stop": 2,
+        "lens_radius": 0.1})");
+    EXPECT_EQ(round.scene.cameras.at(0).type, CameraType::Equirectangular);
+}
+
+TEST(RenderJson, CamerasThatAreNotThereOrNamedTwiceAreErrors) {
+    const auto expect = [](const std::string& text, const std::string& message, const std::string& pointer) {
+        const LoadedScene loaded = load_lens(text);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, message, pointer)) << listing(loaded.problems);
+    };
+    expect(R"({"cameras": {"mian": {}}})", "no camera 'mian'; did you mean 'main'?", "/cameras/mian");
+    expect(R"({"cameras": {"main": {"focus_node": "behind"}}})", "is not in front of the camera 'main'",
+           "/cameras/main/focus_node");
+    expect(R"({"cameras": {"main": {"f_stop": 2, "lens_radius": 1}}})", "says the same", "/cameras/main/f_stop");
+    expect(R"({"cameras": {"main": {"clip_start": 2, "clip_end": 1}}})", "the clipping is from 2 to 1", "");
+}
+
 TEST(RenderJson, LensesThatAreSaidTwiceOrBehindAreErrors) {
     const auto expect = [](const std::string& text, const std::string& message, const std::string& pointer) {
         const LoadedScene loaded = load_lens(text);
@@ -433,9 +486,10 @@ TEST(RenderJson, EnvironmentImageIsAnInput) {
     EXPECT_EQ(loaded.scene.inputs.size(), 4u);
 }
 
-TEST(RenderJson, CropMustLieInTheImage) {
-    EXPECT_TRUE(has_problem(load_with(R"({"resolution": [10, 10], "crop": [0, 0, 11, 10]})").problems, Severity::Error,
+TEST(RenderJson, CropsGoNoFartherBeyondTheImageThanThatIsLarge) {
+    EXPECT_TRUE(has_problem(load_with(R"({"resolution": [10, 10], "crop": [0, 0, 21, 10]})").problems, Severity::Error,
                             "crop window"));
+    EXPECT_FALSE(load_with(R"({"resolution": [10, 10], "crop": [-10, -1, 20, 10]})").problems.has_errors());
 }
 
 }  // namespace

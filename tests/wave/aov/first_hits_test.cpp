@@ -154,23 +154,33 @@ TEST(FirstHits, LosslessGlassHasAnAlbedoOfOne) {
     }
 }
 
-/// The motion of a wall that faces the camera 2 m before it, in the middle pixels; `camera_way` is the camera's own.
-Vec2f motion_of_wall(const Vec3f& way, const Vec3f& camera_way) {
+/// Returns the values in the middle pixel of a scene with a wall that faces the camera 2 m before it and is in
+/// `places` while the shutter is open; `camera_way` is the camera's own.
+std::vector<float> values_of_wall(std::span<const Vec3f> places, const Vec3f& camera_way,
+                                  std::shared_ptr<const AovSet> aovs) {
     SceneDesc scene = empty_scene();
     scene.settings.film.width = kAgreementWidth;
     scene.settings.film.height = kAgreementHeight;
     add_object(scene, quad({0, 0, -2}, {4, 0, 0}, {0, 4, 0}), add_material(scene, diffuse(Rgb(0.5f))));
     const auto moved = [](const Vec3f& by) { return Mat4f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, by.x, by.y, by.z, 1); };
-    if (length(way) > 0.0f) scene.instances.back().motion = {moved(way * -0.5f), moved(way * 0.5f)};
+    for (const Vec3f& place : places) scene.instances.back().motion.push_back(moved(place));
     if (length(camera_way) > 0.0f) scene.cameras.front().motion = {moved(camera_way * -0.5f), moved(camera_way * 0.5f)};
     const World world = compile(std::move(scene));
     AgreementCase room{"Wall", {}};
     room.spp = 16;
-    const auto aovs = layers_of({}, {FirstHitValue::Motion});
-    const Film film = render_layers(world, "path", room, aovs, 1).film;
-    const std::vector<float> motion = film.resolve_nearest(0, 2, 99.0f);
-    const std::size_t middle = 2 * (kAgreementHeight / 2 * kAgreementWidth + kAgreementWidth / 2);
-    return {motion[middle], motion[middle + 1]};
+    const std::size_t count = aovs->layout.nearest;
+    const Film film = render_layers(world, "path", room, std::move(aovs), 1).film;
+    const std::vector<float> values = film.resolve_nearest(0, count, 99.0f);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(
+                                             count * (kAgreementHeight / 2 * kAgreementWidth + kAgreementWidth / 2));
+    return {middle, middle + static_cast<std::ptrdiff_t>(count)};
+}
+
+Vec2f motion_of_wall(const Vec3f& way, const Vec3f& camera_way) {
+    std::vector<Vec3f> places;
+    if (length(way) > 0.0f) places = {way * -0.5f, way * 0.5f};
+    const std::vector<float> motion = values_of_wall(places, camera_way, layers_of({}, {FirstHitValue::Motion}));
+    return {motion[0], motion[1]};
 }
 
 // A pixel at 1 m is as high and as wide as half the film there, tan(fov / 2), over half its rows.
@@ -192,6 +202,21 @@ TEST(FirstHits, MotionIsHowFarPixelsMoveWhileTheShutterIsOpen) {
     const Vec2f still = motion_of_wall(Vec3f(0.0f), Vec3f(0.0f));
     EXPECT_EQ(still.x, 0.0f);
     EXPECT_EQ(still.y, 0.0f);
+}
+
+// Cycles gives (-4, -1, -8, -2) for a plane that goes 4 pixels to the right and 1 up until the frame, and twice as far
+// in the next: what was before less what is, and what is less what comes.
+TEST(FirstHits, VectorsAreThoseOfBlenderForWholeFrames) {
+    const SceneDesc scene = empty_scene();
+    const float pixels = 0.5f * kAgreementHeight / std::tan(0.5f * scene.cameras.front().yfov) / 2.0f;
+    const std::vector<Vec3f> places{Vec3f(-4, -1, 0) * (0.25f / pixels), Vec3f(0.0f),
+                                    Vec3f(8, 2, 0) * (0.25f / pixels)};
+    auto aovs = std::make_shared<AovSet>(*layers_of({}, {FirstHitValue::Vector}));
+    aovs->frames_of_shutter = 0.5f;
+    const std::vector<float> found = values_of_wall(places, Vec3f(0.0f), aovs);
+    const std::array<float, 4> expected{-4, -1, -8, -2};
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 0.02f) << "channel " << i;
+    for (const float number : values_of_wall({}, Vec3f(0.0f), aovs)) EXPECT_EQ(number, 0.0f);
 }
 
 TEST(RayCounts, AddUpToAllRays) {
