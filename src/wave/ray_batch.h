@@ -20,7 +20,7 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, const
 /// Removes the hits of rays from the camera that it does not show: those that lie too far, and all of rays that come
 /// from where the film sees nothing.
 inline void hide_unseen_hits(const World& world, std::span<const Ray> rays, std::span<Hit> hits) {
-    if (!world.traits().clips_far && !world.has_blind_film()) return;
+    if (!world.traits().clips_far && !world.traits().has_blind_film) return;
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (!(rays[i].t_max > 0.0f) || (world.traits().clips_far && world.camera().is_too_far(rays[i], hits[i])))
             hits[i] = {};
