@@ -82,6 +82,7 @@ std::string to_json(const RenderStatistics& s) {
                     {"connection", s.rays.connection},
                     {"light_to_camera", s.rays.light_to_camera},
                     {"lamp_in_view", s.rays.lamp_in_view},
+                    {"lamp_image", s.rays.lamp_image},
                     {"total", s.rays.total()}};
     json["rays_per_second"] = per_second(s.rays.total(), s.render.wall);
     json["seconds"] = {{"load", to_object(s.load)},

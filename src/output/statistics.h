@@ -20,9 +20,10 @@ struct RayCounts {
     std::uint64_t connection = 0;
     std::uint64_t light_to_camera = 0;
     std::uint64_t lamp_in_view = 0;
+    std::uint64_t lamp_image = 0;
 
     [[nodiscard]] std::uint64_t total() const {
-        return camera + bounce + shadow + light_subpath + connection + light_to_camera + lamp_in_view;
+        return camera + bounce + shadow + light_subpath + connection + light_to_camera + lamp_in_view + lamp_image;
     }
 };
 

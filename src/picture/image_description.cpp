@@ -376,7 +376,8 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
               .light_subpath = c.rays[RayKind::LightSubpath],
               .connection = c.rays[RayKind::Connection],
               .light_to_camera = c.rays[RayKind::LightToCamera],
-              .lamp_in_view = c.rays[RayKind::LampInView]};
+              .lamp_in_view = c.rays[RayKind::LampInView],
+              .lamp_image = c.rays[RayKind::LampImage]};
     s.samples = c.samples;
     s.spp_done = static_cast<int>(state.spp_done);
     s.complete = complete;

@@ -106,8 +106,8 @@ Vec2i pixel_of(const Vec2f& film) {
 /// Looks for images of lamps in blocks of pixels, a row of them after the other.
 class ImageFinder {
   public:
-    ImageFinder(const World& world, const TileJob& whole, int max_depth, const std::vector<LampSphere>& lamps)
-        : world_(world), whole_(whole), max_depth_(std::min(max_depth, kMostEdges)), lamps_(lamps) {}
+    ImageFinder(const World& world, const TileJob& whole, const std::vector<LampSphere>& lamps)
+        : world_(world), whole_(whole), lamps_(lamps) {}
 
     /// Adds to `images` the pixels that show some in the row of blocks from `top` on.
     void look_at_blocks(int top, LampImages& images) {
@@ -248,7 +248,7 @@ class ImageFinder {
         const Ray ray = world_.camera().generate_ray(on_film(whole_, film), Vec2f(0.5f, 0.5f), 0.5f);
         DeltaBranch branch = branch_along(world_, whole_, ray, {whole_.seed, 0}, nullptr);
         branch.path.throughput = Rgb(kSmallestContribution / kLeastThroughput);
-        follow_deltas(world_, branch, EndCollector::NoState{}, max_depth_, collector);
+        follow_deltas(world_, branch, EndCollector::NoState{}, kMostEdges, collector);
     }
     [[nodiscard]] static const DeltaEnd* find(const std::vector<DeltaEnd>& ends, std::uint32_t way) {
         const auto found = std::ranges::find(ends, way, &DeltaEnd::way);
@@ -260,7 +260,7 @@ class ImageFinder {
         for (std::uint32_t i = 0; i < kLooks && seen.empty(); ++i) {
             const SampleKey key{whole_.seed, i};
             const Vec2f film = images.point(images.pixels().front(), sample_2d(whole_.sequence, key, kFilmDimension));
-            look_for_lamps(world_, branch_through(world_, whole_, film, key, nullptr), {.max_depth = max_depth_}, none,
+            look_for_lamps(world_, branch_through(world_, whole_, film, key, nullptr), {.max_depth = kMostEdges}, none,
                            seen);
         }
         return !seen.empty();
@@ -268,7 +268,6 @@ class ImageFinder {
 
     const World& world_;
     const TileJob& whole_;
-    int max_depth_;
     const std::vector<LampSphere>& lamps_;
     std::vector<DeltaEnd> ends_, ends_right_, ends_below_;
     std::vector<FilmCell> cells_;  ///< of a row of blocks
@@ -318,14 +317,14 @@ Vec2f LampImages::point(const LampPixel& pixel, Vec2f u) const {
     return cells[i].corner + Vec2f(x, u.y) * cells[i].size;
 }
 
-LampImages find_lamp_images(const World& world, const TileJob& whole, int max_depth, const ThreadPool& threads) {
+LampImages find_lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads) {
     LampImages images;
-    if (max_depth < 2 || !world.traits().has_specular_surfaces || !world.traits().has_emitting_surfaces) return images;
+    if (!world.traits().has_specular_surfaces || !world.traits().has_emitting_surfaces) return images;
     const std::vector<LampSphere> lamps = lamp_spheres(world);
     if (lamps.empty()) return images;
     std::vector<LampImages> rows(static_cast<std::size_t>((whole.full_height + kBlockSide - 1) / kBlockSide));
     threads.parallel_for(rows.size(), [&](std::size_t row, int) {
-        ImageFinder finder(world, whole, max_depth, lamps);
+        ImageFinder finder(world, whole, lamps);
         finder.look_at_blocks(static_cast<int>(row) * kBlockSide, rows[row]);
     });
     for (const LampImages& row : rows) images.add(row);
@@ -393,11 +392,11 @@ class ImageTracer final : public SampleTracer {
     ImageTracer(const World& world, const TileJob& job, RenderCounters& counters)
         : world_(world), job_(job), counters_(counters) {}
 
-    [[nodiscard]] Hit nearest_hit(const Ray& ray, int number) override {
-        return intersect_one(world_, job_, number == 1 ? RayKind::LampInView : RayKind::Bounce, ray, counters_);
+    [[nodiscard]] Hit nearest_hit(const Ray& ray, int /*number*/) override {
+        return intersect_one(world_, job_, RayKind::LampImage, ray, counters_);
     }
     [[nodiscard]] std::uint8_t occluded(const Ray& ray) override {
-        return occluded_one(world_, job_, RayKind::LampInView, ray, counters_);
+        return occluded_one(world_, job_, RayKind::LampImage, ray, counters_);
     }
     [[nodiscard]] bool finds_emission(const Hit&) const override { return false; }
 

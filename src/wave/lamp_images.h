@@ -76,10 +76,9 @@ class LampImages {
     std::vector<FilmCell> cells_;
 };
 
-/// Returns the images that the film of `whole`, a job of the full image, shows of lamps by at most `max_depth` edges.
-/// It depends on the seed, and neither on the window nor on the threads.
-[[nodiscard]] LampImages find_lamp_images(const World& world, const TileJob& whole, int max_depth,
-                                          const ThreadPool& threads);
+/// Returns the images that the film of `whole`, a job of the full image, shows of lamps, whatever the lengths of paths
+/// are. They depend on the seed, and neither on the window nor on the threads.
+[[nodiscard]] LampImages find_lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads);
 
 /// Holds the light of a lamp that a point of the film shows by way of deltas.
 struct LampSeen {

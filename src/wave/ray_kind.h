@@ -17,6 +17,7 @@ enum class RayKind : std::uint8_t {
     Connection,     ///< between a vertex of an eye path and one of a light path
     LightToCamera,  ///< from a light path to the lens
     LampInView,     ///< from the camera, where pixels beside that of the sample ask for lamps
+    LampImage,      ///< from the camera and mirrors, for images of lamps
     Count
 };
 
@@ -24,7 +25,7 @@ inline constexpr std::size_t kRayKinds = static_cast<std::size_t>(RayKind::Count
 
 /// Holds the names of the kinds of rays in reports and statistics, in the order of `RayKind`.
 inline constexpr std::array<std::string_view, kRayKinds> kRayKindNames{
-    "camera", "bounce", "shadow", "light-subpath", "connection", "light-to-camera", "lamp-in-view"};
+    "camera", "bounce", "shadow", "light-subpath", "connection", "light-to-camera", "lamp-in-view", "lamp-image"};
 
 /// True of rays whose neighbours go nearly where they do.
 [[nodiscard]] constexpr bool is_coherent(RayKind kind) {

@@ -87,7 +87,7 @@ TEST(StatisticsJson, HasEveryField) {
         "spp": {"requested": 16, "done": 8}, "adaptive": {"least": 8, "mean": 12.5, "most": 16},
         "samples": 80, "samples_per_second": 40.0,
         "rays": {"camera": 100, "bounce": 250, "shadow": 50, "light_subpath": 0, "connection": 0,
-                 "light_to_camera": 0, "lamp_in_view": 0, "total": 400}, "rays_per_second": 200.0,
+                 "light_to_camera": 0, "lamp_in_view": 0, "lamp_image": 0, "total": 400}, "rays_per_second": 200.0,
         "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},
                     "render": {"wall": 2.0, "cpu": 3.75}, "write": {"wall": 0.125, "cpu": 0.0625}},
         "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "bvh_build_seconds": 0.5,

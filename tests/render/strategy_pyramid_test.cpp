@@ -36,7 +36,7 @@ TEST(RenderStrategies, WeightedOnesAddUpToTheImage) {
     const ThreadPool threads(2);
     const World world = lamp_above_floor();
     const RenderOptions options = whole_image(24, 16, 4);
-    const IntegratorSettings integrator{.type = "bdpt", .lengths = {.max_depth = 4}};
+    const IntegratorSettings integrator{.type = "bdpt", .lengths = {.max_depth = 4}, .lamp_images = false};
     const std::atomic<bool> stop{false};
     const std::vector<Strategy> strategies = strategies_between(1, 4);
     double last_fraction = 0.0;
@@ -79,7 +79,7 @@ TEST(RenderStrategies, OfWhatMergesAddUpWithTheMerges) {
     const ThreadPool threads(2);
     const std::atomic<bool> stop{false};
     const RenderOptions options = whole_image(24, 16, 4);
-    const IntegratorSettings integrator{.type = "vcm", .lengths = {.max_depth = 6}};
+    const IntegratorSettings integrator{.type = "vcm", .lengths = {.max_depth = 6}, .lamp_images = false};
     std::vector<Strategy> strategies = strategies_between(1, 6);
     strategies.push_back(kMerges);
     const std::vector<StrategyImage> images =

@@ -92,7 +92,7 @@ TEST(LampImages, AreFoundWhereAMirrorShowsThem) {
     const World world = compile(lamp_in_a_mirror());
     const PixelFilter filter(FilterShape::Box);
     const ThreadPool threads(2);
-    const LampImages images = find_lamp_images(world, job_of_all(filter), 8, threads);
+    const LampImages images = find_lamp_images(world, job_of_all(filter), threads);
     ASSERT_FALSE(images.empty());
     float area = 0.0f;
     for (const LampPixel& pixel : images.pixels()) area += pixel.area;
@@ -104,8 +104,8 @@ TEST(LampImages, AreFoundWhereAMirrorShowsThem) {
     for (const Vec2f& inside : {a, b, (a + b) * 0.5f}) EXPECT_TRUE(images.contain(inside)) << inside.x;
     EXPECT_FALSE(images.contain((a + b) * 0.5f + Vec2f(0.5f, 0.0f)));
     EXPECT_FALSE(images.contain({-1.0f, 3.0f}));
-    // None where paths are too short, or nothing mirrors.
-    EXPECT_TRUE(find_lamp_images(world, job_of_all(filter), 1, threads).empty());
+    // None where nothing mirrors.
+    EXPECT_TRUE(find_lamp_images(compile(empty_scene()), job_of_all(filter), threads).empty());
 }
 
 // The sum over the pixels is the radiance times the image's area, whatever the filter. The standard error of 512
@@ -143,7 +143,7 @@ TEST(LampImages, ASampleIsTheSameWhateverIsRenderedBesideIt) {
     const PixelFilter filter(FilterShape::BlackmanHarris);
     const ThreadPool threads(2);
     TileJob all = job_of_all(filter);
-    const LampImages images = find_lamp_images(world, all, 8, threads);
+    const LampImages images = find_lamp_images(world, all, threads);
     all.lamp_images = &images;
     all.sample_count = 32;
     const std::vector<double> whole = sums_with_images(world, all);
@@ -185,7 +185,7 @@ TEST(LampImages, OfABallOfGlassAreThoseThatChanceFinds) {
     };
     const Estimate by_chance = estimate("naive", 768);
     for (const char* integrator : {"path", "bdpt"}) {
-        const Estimate found = estimate(integrator, 48);
+        const Estimate found = estimate(integrator, 128);
         EXPECT_GT(found.mean, 0.0);
         const ZTestResult test = z_test(found, by_chance);
         EXPECT_LT(std::abs(test.z), 4.5) << integrator << ": " << test.str();

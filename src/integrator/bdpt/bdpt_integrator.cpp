@@ -41,7 +41,7 @@ Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
 LampImages BdptIntegrator::lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads) const {
     // They are of no single strategy, and an observer is to see all weights.
     if (!settings_.lamp_images || settings_.strategy || observer_ != nullptr) return {};
-    return find_lamp_images(world, whole, settings_.lengths.max_depth, threads);
+    return find_lamp_images(world, whole, threads);
 }
 
 void BdptIntegrator::trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch,

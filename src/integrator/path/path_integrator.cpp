@@ -38,7 +38,7 @@ std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
 LampImages PathIntegrator::lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads) const {
     // Without light samples, the integrator is there to find light by chance.
     if (!settings_.lamp_images || settings_.light_samples == 0) return {};
-    return find_lamp_images(world, whole, settings_.lengths.max_depth, threads);
+    return find_lamp_images(world, whole, threads);
 }
 
 void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,

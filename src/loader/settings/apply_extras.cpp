@@ -19,7 +19,7 @@ namespace {
 using ExtrasJson = nlohmann::json;
 
 /// Members that may be 0 or 1, as exporters write what is true or false.
-constexpr std::string_view kExtraFlags[] = {"visible_to_camera", "enabled", "solid"};
+constexpr std::string_view kExtraFlags[] = {"visible_to_camera", "enabled", "solid", "clip"};
 /// Members of lights that say the same in different words: of each group render.json has all or nothing.
 constexpr std::string_view kExtraStrengths[] = {"power", "irradiance", "radiance", "intensity"};
 constexpr std::string_view kExtraPlaces[] = {"node", "position", "rotation", "look_at", "up"};
@@ -92,16 +92,14 @@ class ExtrasMerger {
     void merge(const ExtrasDesc& extras) {
         std::optional<ExtrasJson> value = object_of(extras, problems_);
         if (!value) return;
-        if (extras.of == ExtrasDesc::Of::Camera) {
-            problems_.warning(extras.location, "ignored: of a camera, render.json alone says something");
-            return;
-        }
         if (extras.name.empty()) {
             problems_.warning(extras.location, "what these extras are of has no name, by which settings find it");
             return;
         }
         if (extras.of == ExtrasDesc::Of::Material)
             merge_into(json_.materials, "materials", extras, *value, read_material);
+        else if (extras.of == ExtrasDesc::Of::Camera)
+            merge_into(json_.cameras, "cameras", extras, *value, read_camera_change);
         else
             merge_into(json_.lights, "lights", extras, *value, read_light);
     }

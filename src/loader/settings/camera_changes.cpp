@@ -169,7 +169,9 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
             continue;
         }
         const CameraChange*& place = change_of[static_cast<std::size_t>(camera - scene.cameras.data())];
-        if (place != nullptr)
+        // A camera and its node may both be named: render.json goes first.
+        if (place != nullptr && change.is_from_extras) continue;
+        if (place != nullptr && !place->is_from_extras)
             problems.error(change.location, fmt::format("'{}' is the same camera as '{}'", shown(name),
                                                         shown(name == camera->name ? camera->node : camera->name)));
         place = &change;
@@ -196,8 +198,13 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
         if (lens.focus_node.empty()) continue;
         const bool is_own = change != nullptr && !change->lens.focus_node.empty();
         const SourceLocation where = at_focus(lens.location);
-        if (is_own ? has_node(scene, lens.focus_node, where, problems) : has_node_of_all)
-            focus_on_node(scene, lens.focus_node, where, is_own || &camera == chosen, camera, problems);
+        ProblemList found;
+        if (is_own ? has_node(scene, lens.focus_node, where, found) : has_node_of_all)
+            focus_on_node(scene, lens.focus_node, where, is_own || &camera == chosen, camera, found);
+        for (Problem problem : found.all()) {
+            if (is_own && change->is_from_extras) problem.severity = std::min(problem.severity, Severity::Warning);
+            problems.add(std::move(problem));
+        }
     }
 }
 

@@ -44,6 +44,7 @@ struct CameraChange {
     LensSettings lens{};
     ViewSettings view{};
     SourceLocation location{};
+    bool is_from_extras = false;  ///< of the scene file: errors are warnings
 };
 
 /// Reads the members of `object` that are about a lens; errors for what is said twice.

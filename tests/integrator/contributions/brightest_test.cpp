@@ -32,7 +32,8 @@ class Brightest : public testing::TestWithParam<RoomRun> {
         return room;
     }();
     World world_ = agreement_world(room_);
-    std::unique_ptr<const Integrator> integrator_ = make_integrator(GetParam().integrator, {.lengths = room_.lengths});
+    std::unique_ptr<const Integrator> integrator_ =
+        make_integrator(GetParam().integrator, {.lengths = room_.lengths, .lamp_images = false});
 
     [[nodiscard]] RenderOptions options() const {
         RenderOptions result = render_options(room_);
@@ -164,7 +165,7 @@ TEST(BrightestPaths, SayWhichStrategyIsToBlame) {
     RenderOptions options = whole_image(48, 36, 64);
     options.brightest = 1;
     const auto brightest = [&](const char* name) {
-        const auto integrator = make_integrator(name, {});
+        const auto integrator = make_integrator(name, {.lamp_images = false});
         const std::atomic<bool> stop{false};
         RenderResult result = render(world, *integrator, options, ThreadPool(2), stop, {});
         find_brightest_paths(world, *integrator, options, result);
@@ -195,7 +196,7 @@ TEST(BrightestPaths, AreFoundWhereSubpathsMergeButForTheMerged) {
     const World world = compile(std::move(scene));
     RenderOptions options = whole_image(48, 36, 16);
     options.brightest = 64;
-    const auto integrator = make_integrator("vcm", {});
+    const auto integrator = make_integrator("vcm", {.lamp_images = false});
     const std::atomic<bool> stop{false};
     RenderResult result = render(world, *integrator, options, ThreadPool(2), stop, {});
     find_brightest_paths(world, *integrator, options, result);

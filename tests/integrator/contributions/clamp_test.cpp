@@ -44,7 +44,8 @@ class ClampIndirect : public testing::TestWithParam<RoomRun> {
         options.seed = kClampSeed;
         options.aovs = aovs;
         options.clamp_indirect = limit;
-        const auto integrator = make_integrator(GetParam().integrator, {.lengths = room_.lengths});
+        const auto integrator =
+            make_integrator(GetParam().integrator, {.lengths = room_.lengths, .lamp_images = false});
         return etendue::render(world_, *integrator, options, threads, stop, {}).film;
     }
     /// Direct light, all other light, and what was taken away.

@@ -101,7 +101,21 @@ TEST(Extras, ThatAreWrongAreWarningsAndTheRestHolds) {
     expect({.empty = {{"type", "rectangle"}}}, "must have a", "/nodes/2/extras/etendue");
     expect({.empty = {{"type", "rectangle"}, {"power", 1}, {"radius", 1}}}, "has no radius",
            "/nodes/2/extras/etendue/radius");
-    expect({.camera = {{"f_stop", 2}}}, "render.json alone", "/cameras/0/extras/etendue");
+    expect({.camera = {{"f_stop", -2}}}, "must be a number > 0", "/cameras/0/extras/etendue/f_stop");
+    expect({.camera = {{"focus_node", "Nobody"}}}, "no node 'Nobody'", "/cameras/0/extras/etendue/focus_node");
+}
+
+TEST(Extras, OfCamerasYieldToRenderJson) {
+    const Extras extras{.camera = {{"lens_radius", 0.25}, {"focus_distance", 3}, {"blades", 5}}};
+    const LoadedScene alone = load_extras(extras);
+    EXPECT_TRUE(alone.problems.all().empty()) << listing(alone.problems);
+    ASSERT_EQ(alone.scene.cameras.size(), 1u);
+    EXPECT_EQ(alone.scene.cameras[0].lens_radius, 0.25f);
+    EXPECT_EQ(alone.scene.cameras[0].aperture.blades, 5);
+    const LoadedScene both = load_extras(extras, R"({"cameras": {"main": {"focus_distance": 7}}})");
+    EXPECT_TRUE(both.problems.all().empty()) << listing(both.problems);
+    EXPECT_EQ(both.scene.cameras[0].lens_radius, 0.25f);
+    EXPECT_EQ(both.scene.cameras[0].focus_distance, 7.0f);
 }
 
 TEST(Extras, OfAnyKindCrashNothing) {
