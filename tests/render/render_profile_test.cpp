@@ -152,7 +152,8 @@ TEST(RayKinds, EachIntegratorTracesItsOwn) {
     EXPECT_EQ(kinds_of("naive"), "camera bounce lamp-in-view ");
     EXPECT_EQ(kinds_of("path"), "camera bounce shadow lamp-in-view lamp-image ");
     EXPECT_EQ(kinds_of("light"), "light-subpath light-to-camera ");
-    EXPECT_EQ(kinds_of("bdpt"), "camera bounce shadow light-subpath connection light-to-camera lamp-in-view lamp-image ");
+    EXPECT_EQ(kinds_of("bdpt"),
+              "camera bounce shadow light-subpath connection light-to-camera lamp-in-view lamp-image ");
     EXPECT_EQ(kinds_of("normals"), "camera ");
 }
 
