@@ -19,7 +19,7 @@
 
 namespace etendue {
 
-/// What the scene file's extras say of one of its things under the name "etendue", as render.json would.
+/// Holds the settings that the scene file's extras give one of its things under the name "etendue".
 struct ExtrasDesc {
     enum class Of { Material, Light, Camera, Node };
 

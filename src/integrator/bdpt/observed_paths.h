@@ -12,7 +12,7 @@ namespace etendue {
 /// Puts paths of a wave together from its subpaths, for an observer, if there is one.
 class ObservedPaths {
   public:
-    /// Both waves have to stay where they are.
+    /// Keeps references to the two waves, which must outlive it.
     ObservedPaths(SubpathWave& eye, SubpathWave& light) : eye_(eye), light_(light) {}
     ObservedPaths(const ObservedPaths&) = delete;
     ObservedPaths& operator=(const ObservedPaths&) = delete;

@@ -20,7 +20,7 @@ namespace etendue {
 /// batch and a block's.
 class PathLight {
   public:
-    /// Both arguments have to stay where they are.
+    /// Keeps references to `paths` and `block`, which must outlive it.
     PathLight(WavePaths& paths, PathBlock& block) : paths_(paths), block_(block) {}
     PathLight(const PathLight&) = delete;
     PathLight& operator=(const PathLight&) = delete;

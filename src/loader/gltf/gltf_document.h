@@ -51,7 +51,7 @@ struct GltfSkin {
     std::vector<int> joints;                   ///< nodes
 };
 
-/// What the extras of one thing say under the name "etendue".
+/// Holds the text that the extras of one thing have under the name "etendue".
 struct GltfExtras {
     ExtrasDesc::Of of = ExtrasDesc::Of::Node;
     std::size_t index = 0;  ///< of the thing among those of its kind

@@ -120,7 +120,7 @@ class LightChanges {
     }
 
   private:
-    /// What becomes of a lamp of the file.
+    /// Says what becomes of a lamp of the file.
     struct Softening {
         bool is_left_out = false;
         float radius = 0.0f;

@@ -135,7 +135,7 @@ class GivenPath {
                merge_at(job_.mis(), departing, vertex.position, vertex.densities);
     }
 
-    /// As LightEmitter::sample makes it.
+    /// Returns the emission that LightEmitter::sample would have made.
     [[nodiscard]] Emission emission() const {
         const World& world = job_.world;
         const PathLightEnd& end = path_.end;
@@ -158,7 +158,7 @@ class GivenPath {
         }
         return emission;
     }
-    /// As LightSampler::sample makes it for vertex 0.
+    /// Returns the light sample that LightSampler::sample would have made for vertex 0.
     [[nodiscard]] ChosenLight chosen() const {
         const World& world = job_.world;
         const PathLightEnd& end = path_.end;

@@ -70,7 +70,7 @@ struct Added {
         }
         if (length(axis) > 1e-3f) axis = normalize(axis);
     }
-    /// Of a matte surface.
+    /// Returns the watts that the lamp emits if it is as bright from everywhere.
     [[nodiscard]] double power() const { return kPiD * area * radiance; }
 };
 
