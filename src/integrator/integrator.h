@@ -3,7 +3,6 @@
 // To add another, see CONTRIBUTING.md (An integrator).
 #pragma once
 
-#include "core/parallel.h"
 #include "film/film.h"
 #include "scene/integrator_settings.h"
 #include "wave/lamp_images.h"
@@ -50,9 +49,11 @@ class Integrator {
     /// every pixel, `trace_photons` is called for all of `job.window` before it, and jobs hold what it has left.
     [[nodiscard]] virtual Merging merging(const World&, const TileJob&) const { return {}; }
 
-    /// Returns the images of lamps that are to get samples of their own in jobs like `whole`, one of the full image.
-    [[nodiscard]] virtual LampImages lamp_images(const World&, const TileJob& /*whole*/, const ThreadPool&) const {
-        return {};
+    /// Returns the images of lamps that are to get samples of their own in jobs like `whole`, one of the full image;
+    /// null for none. They cover `window`, pixels of that image.
+    [[nodiscard]] virtual std::unique_ptr<const LampImages> lamp_images(const World&, const TileJob& /*whole*/,
+                                                                        const PixelRect& /*window*/) const {
+        return nullptr;
     }
 
     /// Appends to `photons` those of the light subpaths of the samples of `job`.

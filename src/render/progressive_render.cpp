@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace etendue {
@@ -44,7 +45,14 @@ ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integ
       threads_(threads),
       state_(std::move(state)),
       tiles_(make_tiles(options.window)),
-      workers_(static_cast<std::size_t>(threads.thread_count())) {}
+      workers_(static_cast<std::size_t>(threads.thread_count())) {
+    // Samples of pixels, and of images that they show, fall as far beside the window as the filter reaches.
+    const int beyond = static_cast<int>(std::ceil(options.filter.radius())) + 1;
+    const PixelRect& window = options.window;
+    lamp_images_ =
+        integrator.lamp_images(world, make_job({0, 0, options.full_width, options.full_height}),
+                               {window.x0 - beyond, window.y0 - beyond, window.x1 + beyond, window.y1 + beyond});
+}
 
 std::size_t ProgressiveRender::scratch_bytes() const {
     std::size_t bytes = 0;
@@ -107,9 +115,6 @@ void ProgressiveRender::finish_pass() {
 bool ProgressiveRender::go_on(const StopPredicate& stop, const TileCallback& tile_done) {
     const auto start = Clock::now();
     const double cpu_start = process_cpu_seconds();
-    if (!lamp_images_)
-        lamp_images_ =
-            integrator_.lamp_images(world_, make_job({0, 0, options_.full_width, options_.full_height}), threads_);
     trace_photons();
     // Splats are added in the order of the tiles, whatever the order in which these are rendered.
     for (std::size_t first = 0; first < tiles_.size() && !stop();) {
@@ -143,7 +148,7 @@ TileJob ProgressiveRender::make_job(const PixelRect& rect) const {
             .filter = &options_.filter,
             .aovs = options_.aovs.get(),
             .clamp_indirect = options_.clamp_indirect,
-            .lamp_images = lamp_images_ ? &*lamp_images_ : nullptr};
+            .lamp_images = lamp_images_.get()};
 }
 
 void ProgressiveRender::trace_photons() {

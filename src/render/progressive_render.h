@@ -147,11 +147,11 @@ class ProgressiveRender {
     RenderState state_;
     std::vector<PixelRect> tiles_;
     std::vector<Worker> workers_;
-    std::optional<LampImages> lamp_images_;   ///< found before the first pass
-    RenderCounters photon_counters_;          ///< counters of tracing `photons_`
-    std::optional<SharedPhotons> photons_;    ///< photons of the pass under way, if its samples merge
-    std::vector<std::vector<Splat>> splats_;  ///< splats of each tile of a group
-    double seconds_per_tile_ = 0.0;           ///< seconds per tile of the last group; 0: not known
+    std::unique_ptr<const LampImages> lamp_images_;  ///< null if there are none
+    RenderCounters photon_counters_;                 ///< counters of tracing `photons_`
+    std::optional<SharedPhotons> photons_;           ///< photons of the pass under way, if its samples merge
+    std::vector<std::vector<Splat>> splats_;         ///< splats of each tile of a group
+    double seconds_per_tile_ = 0.0;                  ///< seconds per tile of the last group; 0: not known
 };
 
 }  // namespace etendue

@@ -24,7 +24,7 @@
 #include "core/pixel_rect.h"
 #include "scene/integrator_settings.h"
 #include "wave/camera_wave.h"
-#include "wave/lamp_images.h"
+#include "wave/lamp_image_sampler.h"
 
 #include <cstddef>
 #include <cstdint>

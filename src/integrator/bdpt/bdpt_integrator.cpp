@@ -38,10 +38,11 @@ Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
                         job.first_sample, merging_);
 }
 
-LampImages BdptIntegrator::lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads) const {
+std::unique_ptr<const LampImages> BdptIntegrator::lamp_images(const World& world, const TileJob& whole,
+                                                              const PixelRect& window) const {
     // They are of no single strategy, and an observer is to see all weights.
-    if (!settings_.lamp_images || settings_.strategy || observer_ != nullptr) return {};
-    return find_lamp_images(world, whole, threads);
+    if (!settings_.lamp_images || settings_.strategy || observer_ != nullptr) return nullptr;
+    return find_lamp_images(world, whole, window);
 }
 
 void BdptIntegrator::trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch,

@@ -28,8 +28,8 @@ class BdptIntegrator final : public Integrator {
     [[nodiscard]] std::vector<std::string> ineffective_options(const World& world) const override;
     [[nodiscard]] bool makes_splats() const override { return true; }
     [[nodiscard]] Merging merging(const World& world, const TileJob& job) const override;
-    [[nodiscard]] LampImages lamp_images(const World& world, const TileJob& whole,
-                                         const ThreadPool& threads) const override;
+    [[nodiscard]] std::unique_ptr<const LampImages> lamp_images(const World& world, const TileJob& whole,
+                                                                const PixelRect& window) const override;
     void trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch, PhotonList& photons,
                        RenderCounters& counters) const override;
     void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,

@@ -35,10 +35,11 @@ std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
     return std::make_unique<PathWave>();
 }
 
-LampImages PathIntegrator::lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads) const {
+std::unique_ptr<const LampImages> PathIntegrator::lamp_images(const World& world, const TileJob& whole,
+                                                              const PixelRect& window) const {
     // Without light samples, the integrator is there to find light by chance.
-    if (!settings_.lamp_images || settings_.light_samples == 0) return {};
-    return find_lamp_images(world, whole, threads);
+    if (!settings_.lamp_images || settings_.light_samples == 0) return nullptr;
+    return find_lamp_images(world, whole, window);
 }
 
 void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,

@@ -19,8 +19,8 @@ class PathIntegrator final : public Integrator {
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
     [[nodiscard]] std::vector<std::string> ineffective_options(const World& world) const override;
-    [[nodiscard]] LampImages lamp_images(const World& world, const TileJob& whole,
-                                         const ThreadPool& threads) const override;
+    [[nodiscard]] std::unique_ptr<const LampImages> lamp_images(const World& world, const TileJob& whole,
+                                                                const PixelRect& window) const override;
     void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                      RenderCounters& counters) const override;
 
