@@ -39,8 +39,6 @@ constexpr float kDifference = 0.02f;
 constexpr float kMargin = 1.5f;
 /// Multiplies the margin for cells of several pixels.
 constexpr float kBlockMargin = 2.5f;
-/// Bounds the trees that the edges of mirrors are looked at with, for each pixel of the region.
-constexpr std::size_t kTreesPerPixel = 3;
 /// Counts the points of a pixel's cells that are looked at; it shows something if one of them is lit.
 constexpr std::uint32_t kLooks = 64;
 
@@ -86,16 +84,11 @@ class ImageFinder {
             return first + Vec2f(static_cast<float>(block % kBlocks), static_cast<float>(block / kBlocks)) *
                                static_cast<float>(kBlockSide);
         };
-        std::vector<std::size_t> uneven;
         for (std::size_t block = 0; block < kBlocks * kBlocks; ++block)
             if (is_even(ways, kBlocks, block % kBlocks, block / kBlocks))
                 divide({corner_of(block), kBlockSide}, false);
             else
-                uneven.push_back(block);
-        // Where all is edges, some are looked at, wherever they are.
-        std::ranges::sort(uneven, {}, [](std::size_t block) { return hash_u32(static_cast<std::uint32_t>(block)); });
-        for (const std::size_t block : uneven)
-            look_at_uneven(corner_of(block), trees_ < kTreesPerPixel * kLampRegion * kLampRegion);
+                look_at_uneven(corner_of(block));
         return collect();
     }
 
@@ -137,9 +130,8 @@ class ImageFinder {
         return ways[corner] == middle && ways[corner + 1] == middle && ways[corner + columns + 1] == middle &&
                ways[corner + columns + 2] == middle;
     }
-    /// Looks at a block, some of whose pixels lie at the edges of mirrors, at these more closely if it `looks_closely`.
-    void look_at_uneven(const Vec2f& corner, bool looks_closely) {
-        if (!looks_closely) return divide({corner, kBlockSide}, false);
+    /// Looks at a block, some of whose pixels lie at the edges of mirrors, and at these more closely.
+    void look_at_uneven(const Vec2f& corner) {
         find_ways(corner, kBlockSide, kBlockSide, 1.0f);
         const std::vector<std::uint32_t> ways = ways_;
         for (std::size_t y = 0; y < kBlockSide; ++y)
@@ -209,7 +201,6 @@ class ImageFinder {
         return to_middle - end.direction * along;
     }
     void find_ends(const Vec2f& film, std::vector<DeltaEnd>& ends) {
-        ++trees_;
         ends.clear();
         EndCollector collector{ends};
         const Ray ray = world_.camera().generate_ray(on_film(whole_, film), Vec2f(0.5f, 0.5f), 0.5f);
@@ -238,7 +229,6 @@ class ImageFinder {
     std::span<const LampSphere> lamps_;
     std::vector<DeltaEnd> ends_, ends_right_, ends_below_;
     std::vector<FilmCell> cells_;  ///< cells that may show lamps
-    std::size_t trees_ = 0;        ///< trees that were followed
     // Of `find_ways`.
     std::vector<Vec2f> points_, film_;
     std::vector<Ray> rays_;
