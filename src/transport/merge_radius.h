@@ -43,11 +43,11 @@ struct Merging {
         const auto metres = static_cast<double>(radius(point));
         return std::numbers::pi * metres * metres * light_paths;
     }
-    /// Returns the weight of a merge for which the other strategies of both sides together have `ratio` times its
-    /// density.
-    [[nodiscard]] double weight(double ratio) const {
+    /// Returns the raised density of all ways but a merge over that of the merge, where the recursion of both sides
+    /// sums up to `ratio`.
+    [[nodiscard]] double others(double ratio) const {
         // Where all vertices merge, both sides have counted this one.
-        return 1.0 / (at == MergeAt::Everywhere ? std::max(1.0, ratio - 1.0) : 1.0 + ratio);
+        return at == MergeAt::Everywhere ? std::max(0.0, ratio - 2.0) : ratio;
     }
 };
 

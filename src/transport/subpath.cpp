@@ -11,9 +11,12 @@ namespace {
 SubpathDensities densities_at(const SubpathSample& sample, const Subpath& subpath, const Vec3f& position,
                               float cosine) {
     const auto cos_arriving = static_cast<double>(cosine);
-    if (subpath.index > 1)
-        return subpath.departing.arrive(sample.mis.raised, static_cast<double>(length_squared(position - subpath.from)),
-                                        cos_arriving);
+    if (subpath.index > 1) {
+        const auto squared_distance = static_cast<double>(length_squared(position - subpath.from));
+        SubpathDensities arrived = subpath.departing.arrive(sample.mis.raised, squared_distance, cos_arriving);
+        if (subpath.end == SubpathEnd::AtLight && sample.counts_path_tracing_alone) arrived.a = 0.0;
+        return arrived;
+    }
     if (subpath.end == SubpathEnd::AtLight)
         return arrive_from_light(sample.mis, *subpath.emission, subpath.departing, position, cos_arriving);
     return arrive_from_lens(sample.mis, subpath.departing,

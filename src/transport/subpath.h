@@ -33,6 +33,8 @@ struct SubpathSample {
     const EyeSample& eye;
     /// Holds the key of the numbers that samples share if they merge, in place of the sample's own.
     std::optional<SampleKey> shared{};
+    /// Has the densities of light subpaths count the strategies s = 0 and s = 1 alone, those of path tracing.
+    bool counts_path_tracing_alone = false;
 
     [[nodiscard]] const World& world() const { return mis.world; }
     /// Returns a pair of numbers for `bounce` of a subpath, 0 where it begins.
@@ -93,6 +95,11 @@ using Arrival = std::function<void(const Subpath&, const Vertex&, const SubpathD
 [[nodiscard]] Subpath begin_subpath_at_eye(const SubpathSample& sample);
 /// Returns a subpath from a light that was chosen by its power; nothing if that emits nothing.
 [[nodiscard]] std::optional<Subpath> begin_subpath_at_light(const SubpathSample& sample);
+
+/// Returns true if a subpath that has just begun at a light may light anything that the camera sees.
+[[nodiscard]] inline bool leads_to_camera(const SubpathSample& sample, const Subpath& from_light) {
+    return sample.lengths.max_depth >= edges_to_connect(sample.world()) && !is_black(from_light.emission->weight);
+}
 
 /// Follows a subpath to its end. Russian roulette begins after `roulette_depth` rays. Returns its vertices that can be
 /// connected, the first one first.

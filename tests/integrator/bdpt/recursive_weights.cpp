@@ -219,7 +219,7 @@ class GivenPath {
         const double fewer =
             light_.vertices[i].densities.fewer(job_.raised, static_cast<double>(value.pdf_solid_angle)) +
             eye_.vertices[i].densities.fewer(job_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
-        return job_.merging.weight(fewer / job_.raised(job_.merging.expected(path_.inner[i]->position)));
+        return 1.0 / (1.0 + job_.merging.others(fewer / job_.raised(job_.merging.expected(path_.inner[i]->position))));
     }
 
     const SubpathJob& job_;

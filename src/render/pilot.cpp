@@ -1,0 +1,183 @@
+#include "render/pilot.h"
+
+#include "film/pixel_filter.h"
+#include "transport/scattered_cone.h"
+#include "wave/camera_wave.h"
+#include "wave/tile_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace etendue {
+
+namespace {
+
+/// Counts the pixels of the pilot's image, about.
+constexpr double kPilotPixels = 4096.0;
+/// Counts the samples of each of its pixels.
+constexpr std::uint32_t kPilotSamples = 4;
+/// Counts the samples per pixel of the render that integrators are compared for: what one cannot find is an error that
+/// more samples do not mend.
+constexpr double kRenderSamples = 64.0;
+/// Bounds the radiance, squared, that errors are relative to from below, as for relMSE.
+constexpr double kLeastSquared = 0.01;
+/// Gives the processor time that parts of a sample take, in those of a ray of an eye path with its shading.
+constexpr double kLightSampleCost = 0.5;
+constexpr double kLightRayCost = 1.0;
+constexpr double kConnectionCost = 0.35;
+constexpr double kMergeCost = 0.1;
+constexpr double kSampleCost = 1.0;
+
+/// Holds the film of a pilot.
+class PilotFilm {
+  public:
+    PilotFilm(int width, int height)
+        : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+
+    [[nodiscard]] std::size_t pixel_at(const Vec2f& film) const {
+        const auto place = [](float along, int count) {
+            return std::clamp(static_cast<int>(along * static_cast<float>(count)), 0, count - 1);
+        };
+        return static_cast<std::size_t>(place(film.y, height_)) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(place(film.x, width_));
+    }
+    void add(std::size_t pixel, const ComparedLight& light) { pixels_[pixel].add(light); }
+
+    /// Returns the mean squared relative error of an image with one sample per pixel, for `samples` of each pixel here.
+    [[nodiscard]] PerIntegrator<double> errors(double samples) const {
+        PerIntegrator<double> sums{};
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x) {
+                const ComparedLight& pixel = pixels_[index(x, y)];
+                const double light = light_around(x, y) / samples;
+                const double scale = 1.0 / (light * light + kLeastSquared);
+                for (std::size_t i = 0; i < kComparedCount; ++i) {
+                    const double missed = pixel.missed[i] / samples;
+                    sums[i] += scale * (pixel.moments[i] / samples + kRenderSamples * missed * missed);
+                }
+            }
+        for (double& sum : sums) sum /= static_cast<double>(pixels_.size());
+        return sums;
+    }
+
+  private:
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    }
+    /// Returns the mean of the pixel and its neighbours: one pixel alone has few samples.
+    [[nodiscard]] double light_around(int x, int y) const {
+        double sum = 0.0;
+        double count = 0.0;
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height_ - 1); ++v)
+            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width_ - 1); ++u) {
+                sum += pixels_[index(u, v)].light;
+                count += 1.0;
+            }
+        return sum / count;
+    }
+
+    int width_ = 0;
+    int height_ = 0;
+    std::vector<ComparedLight> pixels_;
+};
+
+/// Holds what the samples of a row of pixels have found on the film.
+struct RowFindings {
+    std::vector<std::pair<std::size_t, ComparedLight>> light;  ///< with the pixel
+    SampleWork work;
+};
+
+/// Takes the sample of index `index` of every pixel of `job.rect`, the whole image.
+SampleWork take_samples(const World& world, const IntegratorSettings& settings, TileJob job, std::uint32_t index,
+                        const ThreadPool& threads, PilotFilm& film) {
+    job.first_sample = index;
+    job.merging = make_merging(
+        world, job.full_width, job.full_height, static_cast<double>(job.rect.area()), index,
+        {.at = MergeAt::BetweenDeltas, .radius = settings.merging.radius, .alpha = settings.merging.alpha});
+    std::vector<CameraSample> samples(job.rect.area());
+    std::vector<Ray> rays(samples.size());
+    generate_camera_rays(world, job, 0, samples, rays);
+    std::vector<std::optional<ComparedSample>> subpaths(samples.size());
+    threads.parallel_for(samples.size(), [&](std::size_t i, int) {
+        const EyeSample eye{.ray = rays[i],
+                            .cone = camera_cone(world, job.full_width, job.full_height, rays[i]),
+                            .numbers = {job.sequence, samples[i].key},
+                            .lens = samples[i].lens};
+        subpaths[i].emplace(world, eye, settings,
+                            BidirectionalSetup{.merging = job.merging, .shared = shared_key(job, samples[i].key)});
+    });
+    ComparedSample::Photons photons;
+    for (const auto& sample : subpaths) sample->append_photons(photons);
+    std::vector<std::vector<Photon>> lists(1, photons.all);
+    const PhotonMap map(std::move(lists), job.merging.radius);
+    const auto width = static_cast<std::size_t>(job.full_width);
+    std::vector<RowFindings> rows(samples.size() / width);
+    threads.parallel_for(rows.size(), [&](std::size_t row, int) {
+        for (std::size_t i = row * width; i < (row + 1) * width; ++i)
+            rows[row].work.add(
+                subpaths[i]->compare(map, photons, [&](const ComparedLight& light, const Vec2f* on_film) {
+                    rows[row].light.emplace_back(on_film != nullptr ? film.pixel_at(*on_film) : samples[i].pixel,
+                                                 light);
+                }));
+    });
+    SampleWork work;
+    for (const RowFindings& row : rows) {
+        for (const auto& [pixel, light] : row.light) film.add(pixel, light);
+        work.add(row.work);
+    }
+    return work;
+}
+
+}  // namespace
+
+Compared PilotFindings::best() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < kComparedCount; ++i)
+        if (errors[i] * costs[i] < errors[best] * costs[best]) best = i;
+    return static_cast<Compared>(best);
+}
+
+std::string_view name_of(Compared integrator) {
+    switch (integrator) {
+        case Compared::Path:
+            return "path";
+        case Compared::Bdpt:
+            return "bdpt";
+        case Compared::Vcm:
+            return "vcm";
+    }
+    return {};
+}
+
+PilotFindings run_pilot(const World& world, const IntegratorSettings& settings, int width, int height,
+                        const ThreadPool& threads) {
+    const double side = std::sqrt(kPilotPixels / (static_cast<double>(width) * static_cast<double>(height)));
+    const auto scaled = [&](int of) {
+        return std::max(1, static_cast<int>(std::lround(side * static_cast<double>(of))));
+    };
+    const PixelFilter filter{FilterShape::Box};
+    TileJob job;
+    job.full_width = scaled(width);
+    job.full_height = scaled(height);
+    job.rect = {0, 0, job.full_width, job.full_height};
+    job.window = job.rect;
+    job.filter = &filter;
+    PilotFilm film(job.full_width, job.full_height);
+    SampleWork work;
+    for (std::uint32_t index = 0; index < kPilotSamples; ++index)
+        work.add(take_samples(world, settings, job, index, threads, film));
+    const double count = static_cast<double>(job.rect.area()) * kPilotSamples;
+    PilotFindings findings{.errors = film.errors(kPilotSamples), .work = work};
+    const auto mean = [&](double sum) { return sum / count; };
+    const double path = kSampleCost + mean(work.eye_rays) + kLightSampleCost * mean(work.light_samples);
+    const double bdpt = path + kLightRayCost * mean(work.light_rays) + kConnectionCost * mean(work.connections);
+    const double vcm = bdpt + kLightRayCost * mean(work.light_rays) + kMergeCost * mean(work.merges);
+    findings.costs = {path, bdpt, vcm};
+    return findings;
+}
+
+}  // namespace etendue

@@ -1,0 +1,221 @@
+#include "transport/second_moments.h"
+
+#include "transport/roulette.h"
+#include "transport/strategies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace etendue {
+
+namespace {
+
+/// Bounds the share of an integrator in the strategies from below: it finds paths of less in no render.
+constexpr double kLeastShare = 1e-9;
+
+double mean(const Rgb& light) {
+    return (static_cast<double>(light.r) + static_cast<double>(light.g) + static_cast<double>(light.b)) / 3.0;
+}
+
+/// Returns `found` by `vcm`, which the others find `of_path` and `of_bdpt` times as densely as its own strategy does.
+ComparedLight compared(const StrategyLight& found, double of_path, double of_bdpt) {
+    const double light = mean(found.weighted());
+    if (!std::isfinite(light)) return {};
+    ComparedLight result{.light = light};
+    const PerIntegrator<double> ratios{of_path, of_bdpt, 1.0 / found.sums.weight()};
+    for (std::size_t i = 0; i < kComparedCount; ++i) {
+        const double share = std::min(found.sums.weight() * ratios[i], 1.0);
+        if (share > kLeastShare)
+            result.moments[i] = light * light / share;
+        else
+            result.missed[i] = light;
+    }
+    return result;
+}
+
+/// Returns by how much all strategies of `bdpt` together make a path more densely than one that compares itself with
+/// the others by `sums`.
+double all_of(const StrategySums& sums) {
+    return 1.0 + sums.fewer_from_light + sums.fewer_from_eye;
+}
+
+}  // namespace
+
+void ComparedSample::LightOfPath::add(const StrategyLight& found, double of_path) {
+    constexpr double kLeastShareOfPath = 0.1;
+    if (found.sums.weight() * of_path < kLeastShareOfPath) return;
+    const double light = mean(found.light) / of_path;
+    sum += light;
+    squares += light * light;
+}
+
+void ComparedLight::add(const ComparedLight& other) {
+    light += other.light;
+    for (std::size_t i = 0; i < kComparedCount; ++i) {
+        moments[i] += other.moments[i];
+        missed[i] += other.missed[i];
+    }
+}
+
+void SampleWork::add(const SampleWork& other) {
+    eye_rays += other.eye_rays;
+    light_samples += other.light_samples;
+    light_rays += other.light_rays;
+    connections += other.connections;
+    merges += other.merges;
+}
+
+ComparedSample::ComparedSample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
+                               const BidirectionalSetup& setup)
+    : world_(world), eye_(eye), lengths_(settings.lengths), setup_(setup), lamp_images_(settings.lamp_images) {
+    all_ = follow(sample(setup.merging));
+    unmerged_ = follow(sample({}));
+    of_path_tracing_ = follow(sample({}, true));
+}
+
+SubpathSample ComparedSample::sample(const Merging& merging, bool counts_path_tracing_alone) const {
+    return {{world_, Raised{Heuristic::Balance}, setup_.samples_per_light_path, merging},
+            lengths_,
+            eye_,
+            setup_.shared,
+            counts_path_tracing_alone};
+}
+
+ComparedSample::Subpaths ComparedSample::follow(const SubpathSample& sample) const {
+    const SparedRays spared = spared_rays(lengths_.roulette_depth);
+    Subpaths subpaths;
+    subpaths.eye = follow_subpath(sample, begin_subpath_at_eye(sample), spared.of_eye,
+                                  [&](const Subpath& subpath, const Vertex& vertex, const SubpathDensities& arrived) {
+                                      subpaths.met.push_back({subpath, vertex, arrived});
+                                  });
+    const std::optional<Subpath> from_light = begin_subpath_at_light(sample);
+    if (from_light && leads_to_camera(sample, *from_light))
+        subpaths.light =
+            follow_subpath(sample, *from_light, spared.of_light,
+                           [&](const Subpath&, const Vertex&, const SubpathDensities&) { ++subpaths.light_rays; });
+    return subpaths;
+}
+
+void ComparedSample::append_photons(Photons& photons) const {
+    for (std::size_t i = 0; i < all_.light.size(); ++i) {
+        const SubpathVertex& vertex = all_.light[i];
+        if (!vertex.merges) continue;
+        photons.all.push_back(make_photon(vertex, vertex.surface.geometric_normal));
+        photons.all.back().first_word = static_cast<std::uint32_t>(photons.all.size() - 1);
+        photons.unmerged.push_back(unmerged_.light[i].densities);
+        photons.of_path_tracing.push_back(of_path_tracing_.light[i].densities);
+    }
+}
+
+void ComparedSample::compare_met(ComparedLight& sum, LightOfPath& by_path) const {
+    const SubpathSample all = sample(setup_.merging);
+    const SubpathSample unmerged = sample({});
+    for (std::size_t i = 0; i < all_.met.size(); ++i) {
+        const Met& met = all_.met[i];
+        const bool is_lamp = met.vertex.kind != Vertex::Kind::Environment;
+        if (met.subpath.index == kDirectlySeen || (lamp_images_ && is_lamp && met.subpath.only_deltas)) continue;
+        std::vector<StrategyLight> found;
+        light_met(all, met.subpath, met.vertex, met.arrived,
+                  [&](const StrategyLight& light) { found.push_back(light); });
+        if (found.empty()) continue;
+        std::vector<double> of_bdpt;
+        std::vector<double> of_path;
+        const Met& other = unmerged_.met[i];
+        light_met(unmerged, other.subpath, other.vertex, other.arrived,
+                  [&](const StrategyLight& light) { of_bdpt.push_back(all_of(light.sums)); });
+        // Of the strategies with more vertices from the light, path tracing has s = 1 alone, which `a` counts.
+        Subpath sampled = other.subpath;
+        sampled.departing.d = 0.0;
+        light_met(unmerged, sampled, other.vertex, {.a = other.arrived.a},
+                  [&](const StrategyLight& light) { of_path.push_back(all_of(light.sums)); });
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            sum.add(compared(found[k], of_path[k], of_bdpt[k]));
+            by_path.add(found[k], of_path[k]);
+        }
+    }
+}
+
+void ComparedSample::compare_sampled(ComparedLight& sum, LightOfPath& by_path) const {
+    const SubpathSample all = sample(setup_.merging);
+    const SubpathSample unmerged = sample({});
+    for (std::size_t i = 0; i < all_.eye.size(); ++i) {
+        const StrategyLight found = light_sampled(all, all_.eye[i]);
+        if (is_black(found.weighted())) continue;
+        const StrategySums sums = light_sampled(unmerged, unmerged_.eye[i]).sums;
+        sum.add(compared(found, 1.0 + sums.fewer_from_light, all_of(sums)));
+        by_path.add(found, 1.0 + sums.fewer_from_light);
+    }
+}
+
+void ComparedSample::compare_connected(ComparedLight& sum) const {
+    const SubpathSample all = sample(setup_.merging);
+    const SubpathSample unmerged = sample({});
+    const SubpathSample of_path = sample({}, true);
+    for (std::size_t i = 0; i < all_.eye.size(); ++i)
+        for (std::size_t j = 0; j < all_.light.size(); ++j) {
+            const StrategyLight found = light_connected(all, all_.eye[i], all_.light[j]);
+            if (is_black(found.weighted())) continue;
+            sum.add(compared(
+                found, light_connected(of_path, unmerged_.eye[i], of_path_tracing_.light[j]).sums.fewer_from_light,
+                all_of(light_connected(unmerged, unmerged_.eye[i], unmerged_.light[j]).sums)));
+        }
+}
+
+void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons, SampleWork& work,
+                                    ComparedLight& sum) const {
+    const SubpathSample all = sample(setup_.merging);
+    for (std::size_t i = 0; i < all_.eye.size(); ++i) {
+        const SubpathVertex& eye = all_.eye[i];
+        if (!eye.merges) continue;
+        SubpathVertex no_others = unmerged_.eye[i];
+        no_others.densities = {};
+        light_merged(all, eye, map, [&](const Photon& photon, const StrategyLight& light) {
+            work.merges += 1.0;
+            const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
+            const auto others = [&](const SubpathVertex& vertex, const SubpathDensities& of_photon) {
+                Photon with = photon;
+                with.a = static_cast<float>(of_photon.a);
+                with.b = static_cast<float>(of_photon.b);
+                return others_of_merge(all.mis, vertex, with, scattered);
+            };
+            sum.add(compared(light, others(no_others, photons.of_path_tracing[photon.first_word]),
+                             others(unmerged_.eye[i], photons.unmerged[photon.first_word])));
+        });
+    }
+}
+
+ComparedLight ComparedSample::compare(const PhotonMap& map, const Photons& photons, SampleWork& work,
+                                      const HearLight& hear) const {
+    work.eye_rays += static_cast<double>(all_.met.size());
+    work.light_samples += static_cast<double>(all_.eye.size());
+    work.light_rays += static_cast<double>(all_.light_rays);
+    work.connections += static_cast<double>((all_.eye.size() + 1) * all_.light.size());
+
+    ComparedLight sum;
+    LightOfPath by_path;
+    compare_met(sum, by_path);
+    compare_sampled(sum, by_path);
+    sum.moments.front() += by_path.sum * by_path.sum - by_path.squares;
+    compare_connected(sum);
+    // The light of all strategies varies together, too; so do the photons of a vertex, of which path tracing and
+    // bidirectional path tracing would find one at a time.
+    const double squares = sum.moments.back();
+    sum.moments[1] += sum.light * sum.light - squares;
+    compare_merged(map, photons, work, sum);
+    sum.moments.back() = sum.light * sum.light;
+
+    const SubpathSample all = sample(setup_.merging);
+    const SubpathSample unmerged = sample({});
+    const SubpathSample of_path = sample({}, true);
+    for (std::size_t j = 0; j < all_.light.size(); ++j) {
+        const auto found = light_at_lens(all, all_.light[j]);
+        if (!found || is_black(found->weighted())) continue;
+        hear(compared(*found, light_at_lens(of_path, of_path_tracing_.light[j])->sums.fewer_from_light,
+                      all_of(light_at_lens(unmerged, unmerged_.light[j])->sums)),
+             found->film);
+    }
+    return sum;
+}
+
+}  // namespace etendue

@@ -1,0 +1,120 @@
+#include "transport/strategies.h"
+
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
+#include "transport/direct_light.h"
+
+#include <cmath>
+
+namespace etendue {
+
+void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& vertex, const SubpathDensities& arrived,
+               const std::function<void(const StrategyLight&)>& add) {
+    const World& world = sample.world();
+    const bool is_seen = eye.index == kDirectlySeen;
+    const Vec3f direction = -vertex.wo;
+    if (eye.edges < sample.lengths.min_depth) return;
+    const Rgb throughput = eye.throughput * sample.wavelength_weight(eye.is_dispersed);
+    if (vertex.kind == Vertex::Kind::Environment) {
+        if (!world.traits().has_environment || (is_seen && !world.traits().environment_visible_to_camera)) return;
+        StrategySums sums;
+        if (!is_seen) sums = sums_at_environment(sample.mis, eye.from, direction, eye.departing);
+        add({throughput * world.environment().radiance(direction), sums});
+        return;
+    }
+    const SurfacePoint& point = vertex.surface;
+    if (const Rgb emitted = point.material->emits ? world.materials().emission(point, vertex.wo) : Rgb();
+        !is_black(emitted)) {
+        const std::uint32_t lamp = world.lights().at(point);
+        StrategySums sums;
+        if (!is_seen && lamp != kNone)
+            sums = sums_at_emitter(sample.mis, eye.from, lamp, point.triangle, direction,
+                                   dot(vertex.wo, point.geometric_normal), arrived);
+        else if (eye.is_direct && lamp != kNone)
+            sums = sums_at_seen_emitter(sample.mis, lamp, arrived);
+        add({throughput * emitted, sums});
+    }
+    // An unlit surface lights nothing.
+    if (vertex.kind == Vertex::Kind::Unlit && eye.only_deltas)
+        add({throughput * world.materials().unlit_color(point), {}});
+}
+
+StrategyLight light_sampled(const SubpathSample& sample, const SubpathVertex& eye) {
+    const World& world = sample.world();
+    if (!world.traits().has_sampled_lights || !wants(sample, eye.next_edges)) return {};
+    const auto draw = [&](SubpathDimension which) { return sample.pair(SubpathEnd::AtEye, eye.index, which); };
+    const LightNumbers u{draw(SubpathDimension::LightChoice), draw(SubpathDimension::LightTriangle),
+                         draw(SubpathDimension::LightDirection)};
+    const ChosenLight chosen = world.lights().sample(eye.position, u);
+    const LightSample& light = chosen.sample;
+    if (is_black(light.radiance)) return {};
+    const auto scattered = eye.evaluate_both_ways(light.wi, TransportMode::Radiance);
+    if (is_black(scattered.f_cos)) return {};
+    return {
+        light_contribution(world, eye, eye.throughput * sample.wavelength_weight(eye.is_dispersed), light,
+                           scattered.f_cos, 1.0f / (light.is_delta ? chosen.expected_samples : light.pdf_solid_angle),
+                           {sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index)}),
+        sums_of_light_sample(sample.mis, eye, chosen, scattered)};
+}
+
+StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& eye, const SubpathVertex& light) {
+    const World& world = sample.world();
+    if (!wants(sample, eye.next_edges + light.next_edges - 1)) return {};
+    const Vec3f to_light = light.position - eye.position;
+    const float squared = length_squared(to_light);
+    if (!(squared > 0.0f)) return {};
+    const Vec3f w = to_light * (1.0f / std::sqrt(squared));
+    // Between different media lies a boundary, which no connection passes.
+    if (world.media().within(eye.interior_towards(w)) != world.media().within(light.interior_towards(-w))) return {};
+    const auto at_eye = eye.evaluate_both_ways(w, TransportMode::Radiance);
+    const auto at_light = light.evaluate_both_ways(-w, TransportMode::Importance);
+    if (is_black(at_eye.f_cos) || is_black(at_light.f_cos)) return {};
+    Ray ray = connecting_ray(eye.origin_towards(w), light.origin_towards(-w));
+    ray.time = sample.eye.ray.time;
+    ray.alpha_key =
+        sample.connection_key(SubpathEnd::AtEye, eye.index) + sample.connection_key(SubpathEnd::AtLight, light.index);
+    return {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput *
+                transmittance(world, eye.interior_towards(w), std::sqrt(squared)) *
+                sample.wavelength_weight(eye.is_dispersed || light.is_dispersed) * (1.0f / squared) *
+                visibility(world, ray),
+            sums_between(sample.mis.raised, eye, light, w, squared, at_eye, at_light)};
+}
+
+std::optional<StrategyOnFilm> lamp_at_lens(const SubpathSample& sample, const Emission& emission) {
+    if (!wants(sample, 1)) return {};
+    StrategySums sums;
+    const auto lamp = lamp_to_camera(sample, emission, [&](const LensView& view, float cosine) {
+        sums = sums_of_seen_light(sample.mis, emission, view.camera, cosine);
+        return 1.0f;
+    });
+    if (!lamp) return {};
+    return StrategyOnFilm{{lamp->value, sums}, lamp->film};
+}
+
+std::optional<StrategyOnFilm> light_at_lens(const SubpathSample& sample, const SubpathVertex& light) {
+    const World& world = sample.world();
+    if (light.is_hidden_from_camera() || !wants(sample, light.next_edges)) return {};
+    const Vec2f lens = sample.pair(SubpathEnd::AtLight, light.index, SubpathDimension::LightChoice);
+    const auto view = view_from_lens(world, light.position, lens, sample.eye.ray.time);
+    if (!view) return {};
+    const auto scattered = light.evaluate_both_ways(view->direction, TransportMode::Importance);
+    if (is_black(scattered.f_cos)) return {};
+    const FilmLight shown = vertex_to_camera(sample, light, *view, scattered.f_cos, 1.0f);
+    return StrategyOnFilm{{shown.value, sums_at_lens(sample.mis, light, view->direction, view->camera, scattered)},
+                          shown.film};
+}
+
+void light_merged(const SubpathSample& sample, const SubpathVertex& eye, const PhotonMap& photons,
+                  const std::function<void(const Photon&, const StrategyLight&)>& add) {
+    const MergeKernel kernel{eye.position, eye.surface.geometric_normal, sample.mis.merging.radius(eye.position),
+                             eye.surface.clearance};
+    photons.for_each_in(kernel, [&](const Photon& photon) {
+        if (!wants(sample, eye.next_edges - 1 + photon.edges)) return;
+        const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
+        add(photon, {merged_light(sample.mis, eye, eye.throughput, photon, scattered, false) *
+                         sample.wavelength_weight(eye.is_dispersed || photon.is_dispersed),
+                     {.fewer_from_light = others_of_merge(sample.mis, eye, photon, scattered)}});
+    });
+}
+
+}  // namespace etendue
