@@ -57,16 +57,23 @@ Picture render(Scene scene, const RenderControl& control) {
         state->inputs = description.inputs;
 
         ProblemList problems;
+        const std::vector<std::string> to_choose = replace_auto(description.settings);
         RenderOptions options = make_render_options(description.settings);
-        const std::unique_ptr<const Integrator> integrator = create_integrator(description.settings);
+        (void)create_integrator(description.settings);
         const AovPlan aovs = make_aov_plan(description, problems);
         options.aovs = aovs.set;
         const std::string space = resolve_colors(description.settings, state->colors);
         state->image = describe_settings(description, aovs);
-        const RenderSettings settings = description.settings;
+        RenderSettings settings = description.settings;
         const World world =
             ray_code().compile_world(std::move(description), state->colors, space, threads, problems, {});
         describe_camera(state->image, world);
+        if (!to_choose.empty()) {
+            settings.integrator.type = choose_integrator(world, settings, to_choose, threads).integrator;
+            options.adaptive = make_render_options(settings).adaptive;
+            describe_integrator(state->image, settings);
+        }
+        const std::unique_ptr<const Integrator> integrator = create_integrator(settings);
         for (const Problem& problem : problems.all()) state->messages.push_back(to_message(problem, given));
         for (std::string& note : notes_on(world, *integrator, settings))
             state->messages.push_back({Message::Kind::Note, {}, {}, std::move(note)});

@@ -62,7 +62,7 @@ std::string type_name_of(const SettingType& type) {
                    },
                    [](const Choice& choice) { return fmt::format("TEXT:{{{}}}", fmt::join(choice.names, ",")); },
                    [](const Name& name) {
-                       return name.is_integrator ? fmt::format("TEXT:{{{}}}", fmt::join(integrator_names(), ","))
+                       return name.is_integrator ? fmt::format("TEXT:{{{}}}", fmt::join(integrator_setting_names(), ","))
                                                  : std::string("TEXT");
                    },
                    []<typename Number>(const Numbers<Number>& numbers) {
@@ -113,7 +113,7 @@ void add_setting_option(CLI::App& command, const Setting& setting, SettingsOverr
             [&](const std::string& text) { give_or_fail(overrides, setting.option, text); }, description_of(setting));
     option->type_name(type_name_of(setting.type));
     const auto* const name = std::get_if<Name>(&setting.type);
-    if (name != nullptr && name->is_integrator) option->check(CLI::IsMember(integrator_names()).description(""));
+    if (name != nullptr && name->is_integrator) option->check(CLI::IsMember(integrator_setting_names()).description(""));
 }
 
 }  // namespace

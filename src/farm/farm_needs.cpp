@@ -78,7 +78,9 @@ TaskNeeds with_safety(double seconds, double bytes) {
 
 FilmSize film_size_of(const SceneDesc& scene) {
     const RenderOptions options = make_render_options(scene.settings);
-    const bool has_splats = create_integrator(scene.settings)->makes_splats();
+    // Of `auto` it is not known yet.
+    const bool has_splats =
+        scene.settings.integrator.type == kAutoIntegrator || create_integrator(scene.settings)->makes_splats();
     const std::size_t all = scene.settings.film.frame().area();
     ProblemList ignored;  // the tasks will say them
     const AovPlan aovs = make_aov_plan(scene, ignored);

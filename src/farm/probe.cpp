@@ -1,6 +1,7 @@
 #include "farm/probe.h"
 
 #include "picture/aov_setup.h"
+#include "picture/integrator_choice.h"
 #include "picture/render_setup.h"
 #include "process/peak_memory.h"
 #include "processor/ray_code.h"
@@ -52,13 +53,16 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     PreparedScene prepared = prepare_scene(job.scene, given);
     const PhaseTimer build_timer;
     const ColorConfig colors = ColorConfig::from_environment();
+    const std::vector<std::string> to_choose = replace_auto(prepared.scene.settings);
     RenderSettings settings = prepared.scene.settings;
     const std::string working_space = resolve_colors(settings, colors);
     RenderOptions options = make_render_options(settings);
     options.aovs = make_aov_plan(prepared.scene, prepared.problems).set;
-    const auto integrator = create_integrator(settings);
     const World world =
         ray_code().compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems, {});
+    if (!to_choose.empty())
+        settings.integrator.type = choose_integrator(world, settings, to_choose, threads).integrator;
+    const auto integrator = create_integrator(settings);
     const PhaseTime build = build_timer.elapsed();
     const ShortRender rendered = render_shortly(world, *integrator, options, threads);
 
@@ -69,6 +73,7 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
                                       {"width", options.window.width()},
                                       {"height", options.window.height()},
                                       {"spp", options.spp},
+                                      {"integrator", settings.integrator.type},
                                       {"threads", threads.thread_count()},
                                       {"load_seconds", prepared.load.wall},
                                       {"build_seconds", build.wall},

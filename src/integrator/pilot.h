@@ -16,12 +16,12 @@ struct PilotFindings {
     PerIntegrator<double> costs{};   ///< processor time of a sample, in those of a ray of `path`
     SampleWork work{};               ///< work of a sample, mean
 
-    /// Returns which integrator has the least product of error and cost.
-    [[nodiscard]] Compared best() const;
+    /// Returns the processor time of a render with a given error, in that of any other here.
+    [[nodiscard]] double time_to_error(std::size_t integrator) const { return errors[integrator] * costs[integrator]; }
 };
 
-/// Returns the name in the integrator registry.
-[[nodiscard]] std::string_view name_of(Compared integrator);
+/// Names the integrators of the registry that a pilot compares.
+inline constexpr PerIntegrator<std::string_view> kComparedNames{"path", "bdpt", "vcm"};
 
 /// Takes a fixed number of samples of `world`, of an image with the proportions of `width` to `height`. The findings
 /// are the same on every machine and for any number of threads.

@@ -59,6 +59,7 @@ struct InputFile {
 struct RenderStatistics {
     std::string scene;
     std::string integrator;
+    std::string integrator_choice;    ///< a sentence that says why it was chosen; empty if it was asked for
     std::optional<int> frame;         ///< of a sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
     std::string settings_hash;        ///< equal for equal settings

@@ -123,6 +123,7 @@ Json to_object(const RenderStatistics& s) {
             {"instances", s.instances},
             {"lights", s.lights},
             {"missing_textures", s.missing_textures},
+            {"integrator_choice", s.integrator_choice},
             {"isa", s.isa},
             {"instruction_set", s.instruction_set}};
 }
@@ -143,6 +144,7 @@ RenderStatistics to_statistics(const Json& json) {
     json.at("instances").get_to(s.instances);
     json.at("lights").get_to(s.lights);
     json.at("missing_textures").get_to(s.missing_textures);
+    json.at("integrator_choice").get_to(s.integrator_choice);
     json.at("isa").get_to(s.isa);
     json.at("instruction_set").get_to(s.instruction_set);
     return s;
@@ -279,7 +281,6 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
     frame.owner = settings.metadata.owner;
     frame.comments = settings.metadata.comments;
     frame.scene = scene.name;
-    frame.integrator = settings.integrator.type;
     frame.sampler = settings.sampler == SamplerType::Random ? "random" : "sobol";
     frame.seed = settings.seed;
     description.aov_layout = settings.aov_layout;
@@ -294,8 +295,13 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
     s.time_code = settings.shown_time();
     s.light_units = light_units_name(settings.light_units);
     s.spp_requested = settings.spp;
-    s.settings = to_json_object(setting_texts(settings));
+    describe_integrator(description, settings);
     return description;
+}
+
+void describe_integrator(ImageDescription& description, const RenderSettings& settings) {
+    description.frame.integrator = settings.integrator.type;
+    description.statistics.settings = to_json_object(setting_texts(settings));
 }
 
 void describe_camera(ImageDescription& description, const World& world) {

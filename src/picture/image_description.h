@@ -33,6 +33,9 @@ struct ImageDescription {
 /// The description of an image of `scene`, whose names of colour spaces are resolved, with the layers of `plan`.
 [[nodiscard]] ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan);
 
+/// Puts in the integrator of `settings`, and all settings with it.
+void describe_integrator(ImageDescription& description, const RenderSettings& settings);
+
 /// Puts in how the camera sees the world.
 void describe_camera(ImageDescription& description, const World& world);
 

@@ -92,6 +92,12 @@ std::vector<std::string> integrator_names() {
     return names;
 }
 
+std::vector<std::string> integrator_setting_names() {
+    std::vector<std::string> names = integrator_names();
+    names.insert(names.begin(), std::string(kAutoIntegrator));
+    return names;
+}
+
 bool has_strategies(const std::string& integrator) {
     const IntegratorEntry* const entry = find_integrator(integrator);
     return entry != nullptr && entry->has_strategies();
@@ -133,6 +139,10 @@ void require_fireflies(const RenderSettings& settings, const IntegratorEntry& en
 
 std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
     const IntegratorSettings& s = settings.integrator;
+    if (s.type == kAutoIntegrator)
+        throw SceneError(settings.at("/integrator/type"),
+                         fmt::format("'auto' has an integrator chosen for a render; name one here: {}",
+                                     fmt::join(integrator_names(), ", ")));
     std::vector<std::string_view> names;
     for (const IntegratorEntry& entry : integrator_registry()) {
         names.push_back(entry.name);

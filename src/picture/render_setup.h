@@ -32,6 +32,9 @@ namespace etendue {
 /// Names the integrators of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();
 
+/// Returns what the setting may be: `auto`, and all names of the registry.
+[[nodiscard]] std::vector<std::string> integrator_setting_names();
+
 /// True if the integrator of this name has strategies.
 [[nodiscard]] bool has_strategies(const std::string& integrator);
 

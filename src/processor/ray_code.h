@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrator/integrator.h"
+#include "integrator/pilot.h"
 #include "processor/instruction_set.h"
 #include "world/compile.h"
 
@@ -15,6 +16,7 @@ struct RayCode {
     InstructionSet instruction_set;
     decltype(&etendue::compile_world) compile_world;
     decltype(&etendue::make_integrator) make_integrator;
+    decltype(&etendue::run_pilot) run_pilot;
 };
 
 /// Each that the program has and the processor can run, in the order of `InstructionSet`; at least one.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace etendue {
 
@@ -50,8 +51,11 @@ struct MergeSettings {
     double alpha = 0.75;  ///< [0.1, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
 };
 
+/// Names no integrator: a pilot is to choose one for the scene.
+inline constexpr std::string_view kAutoIntegrator = "auto";
+
 struct IntegratorSettings {
-    std::string type = "path";  ///< a name from the integrator registry
+    std::string type = "path";  ///< a name from the integrator registry, or kAutoIntegrator
     PathLengths lengths{};
     /// Counts the lights, 1 to 64, that `path` and `direct` sample at each first vertex behind the eye and its mirrors.
     /// With 0, which no user asks for, paths find lights by chance only.

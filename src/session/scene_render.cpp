@@ -6,6 +6,7 @@
 #include "output/preview_driver.h"
 #include "picture/aov_setup.h"
 #include "picture/image_description.h"
+#include "picture/integrator_choice.h"
 #include "picture/output_paths.h"
 #include "picture/render_setup.h"
 #include "processor/ray_code.h"
@@ -72,24 +73,32 @@ class SceneRender {
         progress_pipe_.enter("load");
         if (!is_partial(output_)) image_module_ = load_image_module_early();
         report_problems();
-        options_ = is_partial(output_) ? make_part_options(scene_.settings, request.samples)
-                                       : make_render_options(scene_.settings);
+        // Before names are resolved: batch compares it with that of a scene that was only prepared.
+        const std::string hash = settings_hash(scene_, request_.overrides.depth);
+        const std::string requested = requested_settings(scene_.settings);
+        to_choose_ = replace_auto(scene_.settings, {.strategies = !request_.strategies.output.empty()});
+        options_ = options_of(scene_.settings);
         integrator_ = create_integrator(scene_.settings);
         aovs_ = make_aov_plan(scene_, problems_);
         report_problems();
         options_.aovs = aovs_.set;
         check_outputs();
         hash_inputs(scene_, prepared.inputs);
-        describe_scene(prepared);
+        describe_scene(prepared, hash, requested);
     }
 
     SceneRenderResult run() {
+        std::optional<World> compiled;
+        if (!to_choose_.empty()) choose(compiled.emplace(compile()));
         std::optional<Checkpoint> kept = read_kept();
         if (kept && is_finished_part(*kept)) return finished_part(*kept);
         if (kept && !request_.quiet)
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
-        const World world = compile();
+        if (!compiled) compiled.emplace(compile());
+        const World& world = *compiled;
+        if (!request_.quiet)
+            for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
         require_image_module();
         RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
         find_brightest_paths(world, *integrator_, options_, rendered);
@@ -112,6 +121,13 @@ class SceneRender {
 
   private:
     [[nodiscard]] bool is_deep() const { return aovs_.set && aovs_.set->layout.is_deep; }
+
+    /// Returns true for a part that does not cover the whole image.
+    [[nodiscard]] bool is_crop() const { return options_.window != options_.splat_window; }
+
+    [[nodiscard]] RenderOptions options_of(const RenderSettings& settings) const {
+        return is_partial(output_) ? make_part_options(settings, request_.samples) : make_render_options(settings);
+    }
 
     [[nodiscard]] bool is_lost() const { return request_.is_lost != nullptr && *request_.is_lost; }
 
@@ -140,8 +156,7 @@ class SceneRender {
             if (intersection(options_.window, options_.splat_window) != options_.window)
                 throw SceneError(scene_.settings.at("/crop"),
                                  "a part lies within the image and its overscan: give it --overscan as well");
-            const bool is_crop = options_.window != options_.splat_window;
-            if (is_crop && is_deep() && integrator_->makes_splats())
+            if (is_crop() && is_deep() && integrator_->makes_splats())
                 throw SceneError({"--deep", {}},
                                  "a part that is a crop has no depths of the light that falls into others: render "
                                  "parts that are ranges of samples (--samples), or with 'path'");
@@ -187,10 +202,7 @@ class SceneRender {
                                          layer, path.string(), other.string()));
     }
 
-    void describe_scene(PreparedScene& prepared) {
-        // Before names are resolved: batch compares it with that of a scene that was only prepared.
-        const std::string hash = settings_hash(scene_, request_.overrides.depth);
-        const std::string requested = requested_settings(scene_.settings);
+    void describe_scene(PreparedScene& prepared, const std::string& hash, const std::string& requested) {
         const std::string working_space = resolve_colors(scene_.settings, colors_);
         description_ = describe_settings(scene_, aovs_);
         RenderStatistics& s = description_.statistics;
@@ -260,9 +272,28 @@ class SceneRender {
         s.lights = from.lights;
         s.missing_textures = from.missing_textures;
         describe_camera(description_, world);
-        if (!request_.quiet)
-            for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
         return world;
+    }
+
+    /// Has a pilot choose the integrator, and all that depends on it follow.
+    void choose(const World& world) {
+        const PhaseTimer timer;
+        const bool leaves_no_splats = is_partial(output_) && is_crop() && is_deep();
+        const IntegratorChoice choice = choose_integrator(
+            world, settings_, leaves_no_splats ? integrators_to_choose(settings_, {.no_splats = true}) : to_choose_,
+            threads_);
+        settings_.integrator.type = choice.integrator;
+        const std::shared_ptr<const AovSet> aovs = options_.aovs;
+        options_ = options_of(settings_);
+        options_.aovs = aovs;
+        integrator_ = create_integrator(settings_);
+        for (const auto& [name, text] : settings_identity(settings_)) identity_[name] = text;
+        describe_integrator(description_, settings_);
+        description_.statistics.integrator_choice = choice.reason;
+        const PhaseTime taken = timer.elapsed();
+        description_.statistics.build.wall += taken.wall;
+        description_.statistics.build.cpu += taken.cpu;
+        if (!request_.quiet) log_info("{}: auto chose {}", title(), choice.reason);
     }
 
     [[nodiscard]] RenderResult render_from(const World& world, RenderState state) {
@@ -347,6 +378,7 @@ class SceneRender {
     ProgressPipe progress_pipe_;
     std::future<void> image_module_;  ///< while it is loaded; of a part, which is no image, none
     RenderOptions options_;
+    std::vector<std::string> to_choose_;  ///< integrators that a pilot is to choose from; empty if one was asked for
     std::unique_ptr<const Integrator> integrator_;
     AovPlan aovs_;
     ColorConfig colors_ = ColorConfig::from_environment();

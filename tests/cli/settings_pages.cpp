@@ -42,7 +42,7 @@ OrderedJson type_schema(const SettingType& type) {
                        return OrderedJson{{"type", "boolean"}};
                    },
                    [](const Name& name) {
-                       return name.is_integrator ? OrderedJson{{"enum", integrator_names()}}
+                       return name.is_integrator ? OrderedJson{{"enum", integrator_setting_names()}}
                                                  : OrderedJson{{"type", "string"}, {"minLength", 1}};
                    },
                    [](const Choice& choice) {
@@ -83,7 +83,7 @@ std::string schema_description(const Setting& setting) {
 std::string value_in_words(const SettingType& type) {
     return std::visit(
         Overloaded{[](const Name& name) {
-                       return name.is_integrator ? fmt::format("`{}`", fmt::join(integrator_names(), "`, `"))
+                       return name.is_integrator ? fmt::format("`{}`", fmt::join(integrator_setting_names(), "`, `"))
                                                  : std::string("string");
                    },
                    [](const Choice& choice) { return fmt::format("`{}`", fmt::join(choice.names, "`, `")); },

@@ -46,6 +46,7 @@ RenderStatistics make_statistics() {
     s.texture_cache_budget = 9000;
     s.failed_texture_lookups = 6;
     s.missing_textures = 7;
+    s.integrator_choice = "'path', since nothing else is needed";
     s.dropped_samples = 3;
     s.first_dropped = {{1, 2, 3}, {4, 5, 6}};
     s.inputs = {{"textures/sky.exr", 12, 34, "0123"}};

@@ -1,4 +1,4 @@
-#include "render/pilot.h"
+#include "integrator/pilot.h"
 
 #include "film/pixel_filter.h"
 #include "transport/scattered_cone.h"
@@ -6,6 +6,7 @@
 #include "wave/tile_job.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -27,8 +28,9 @@ constexpr double kRenderSamples = 64.0;
 constexpr double kLeastSquared = 0.01;
 /// Gives the processor time that parts of a sample take, in those of a ray of an eye path with its shading.
 constexpr double kLightSampleCost = 0.5;
-constexpr double kLightRayCost = 1.0;
-constexpr double kConnectionCost = 0.35;
+constexpr double kLightRayCost = 2.0;
+constexpr double kConnectionCost = 0.45;
+constexpr double kPhotonCost = 1.0;
 constexpr double kMergeCost = 0.1;
 constexpr double kSampleCost = 1.0;
 
@@ -45,19 +47,34 @@ class PilotFilm {
         return static_cast<std::size_t>(place(film.y, height_)) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(place(film.x, width_));
     }
-    void add(std::size_t pixel, const ComparedLight& light) { pixels_[pixel].add(light); }
+    /// Adds the light of a pixel's own sample of index `index`.
+    void add_sample(std::size_t pixel, const ComparedLight& light, std::uint32_t index) {
+        pixels_[pixel].sum.add(light);
+        pixels_[pixel].of_samples[index % 2] += light.light;
+        pixels_[pixel].of_all[index % 2] += light.light;
+    }
+    /// Adds light that a light subpath of index `index` brings to a pixel.
+    void add_from_light(std::size_t pixel, const ComparedLight& light, std::uint32_t index) {
+        pixels_[pixel].sum.add(light);
+        pixels_[pixel].of_all[index % 2] += light.light;
+    }
 
     /// Returns the mean squared relative error of an image with one sample per pixel, for `samples` of each pixel here.
     [[nodiscard]] PerIntegrator<double> errors(double samples) const {
+        const double of_half = 0.5 * samples;
         PerIntegrator<double> sums{};
         for (int y = 0; y < height_; ++y)
             for (int x = 0; x < width_; ++x) {
-                const ComparedLight& pixel = pixels_[index(x, y)];
+                const Pixel& pixel = pixels_[index(x, y)];
                 const double light = light_around(x, y) / samples;
                 const double scale = 1.0 / (light * light + kLeastSquared);
                 for (std::size_t i = 0; i < kComparedCount; ++i) {
-                    const double missed = pixel.missed[i] / samples;
-                    sums[i] += scale * (pixel.moments[i] / samples + kRenderSamples * missed * missed);
+                    const double missed = pixel.sum.missed[i] / samples;
+                    // Path tracing has its samples' light alone. What light subpaths bring is rare in each pixel.
+                    const auto& halves = i == 0 ? pixel.of_all : pixel.of_samples;
+                    const double squared_mean = (halves[0] / of_half) * (halves[1] / of_half);
+                    sums[i] +=
+                        scale * (pixel.sum.moments[i] / samples - squared_mean + kRenderSamples * missed * missed);
                 }
             }
         for (double& sum : sums) sum /= static_cast<double>(pixels_.size());
@@ -74,20 +91,29 @@ class PilotFilm {
         double count = 0.0;
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height_ - 1); ++v)
             for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width_ - 1); ++u) {
-                sum += pixels_[index(u, v)].light;
+                sum += pixels_[index(u, v)].sum.light;
                 count += 1.0;
             }
         return sum / count;
     }
 
+    /// Holds the sums of a pixel; the light of samples with even and with odd indices apart, whose product is the
+    /// square of the mean without bias.
+    struct Pixel {
+        ComparedLight sum;
+        std::array<double, 2> of_samples{};
+        std::array<double, 2> of_all{};
+    };
+
     int width_ = 0;
     int height_ = 0;
-    std::vector<ComparedLight> pixels_;
+    std::vector<Pixel> pixels_;
 };
 
 /// Holds what the samples of a row of pixels have found on the film.
 struct RowFindings {
-    std::vector<std::pair<std::size_t, ComparedLight>> light;  ///< with the pixel
+    std::vector<ComparedLight> of_samples;
+    std::vector<std::pair<std::size_t, ComparedLight>> from_lights;  ///< with the pixel
     SampleWork work;
 };
 
@@ -118,40 +144,22 @@ SampleWork take_samples(const World& world, const IntegratorSettings& settings, 
     std::vector<RowFindings> rows(samples.size() / width);
     threads.parallel_for(rows.size(), [&](std::size_t row, int) {
         for (std::size_t i = row * width; i < (row + 1) * width; ++i)
-            rows[row].work.add(
-                subpaths[i]->compare(map, photons, [&](const ComparedLight& light, const Vec2f* on_film) {
-                    rows[row].light.emplace_back(on_film != nullptr ? film.pixel_at(*on_film) : samples[i].pixel,
-                                                 light);
+            rows[row].of_samples.push_back(
+                subpaths[i]->compare(map, photons, rows[row].work, [&](const ComparedLight& light, const Vec2f& place) {
+                    rows[row].from_lights.emplace_back(film.pixel_at(place), light);
                 }));
     });
     SampleWork work;
+    std::size_t taken = 0;
     for (const RowFindings& row : rows) {
-        for (const auto& [pixel, light] : row.light) film.add(pixel, light);
+        for (const ComparedLight& light : row.of_samples) film.add_sample(samples[taken++].pixel, light, index);
+        for (const auto& [pixel, light] : row.from_lights) film.add_from_light(pixel, light, index);
         work.add(row.work);
     }
     return work;
 }
 
 }  // namespace
-
-Compared PilotFindings::best() const {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < kComparedCount; ++i)
-        if (errors[i] * costs[i] < errors[best] * costs[best]) best = i;
-    return static_cast<Compared>(best);
-}
-
-std::string_view name_of(Compared integrator) {
-    switch (integrator) {
-        case Compared::Path:
-            return "path";
-        case Compared::Bdpt:
-            return "bdpt";
-        case Compared::Vcm:
-            return "vcm";
-    }
-    return {};
-}
 
 PilotFindings run_pilot(const World& world, const IntegratorSettings& settings, int width, int height,
                         const ThreadPool& threads) {
@@ -175,7 +183,8 @@ PilotFindings run_pilot(const World& world, const IntegratorSettings& settings, 
     const auto mean = [&](double sum) { return sum / count; };
     const double path = kSampleCost + mean(work.eye_rays) + kLightSampleCost * mean(work.light_samples);
     const double bdpt = path + kLightRayCost * mean(work.light_rays) + kConnectionCost * mean(work.connections);
-    const double vcm = bdpt + kLightRayCost * mean(work.light_rays) + kMergeCost * mean(work.merges);
+    const bool merges = make_merging(world, job.full_width, job.full_height, count, 0, {}).merges();
+    const double vcm = bdpt + (merges ? kPhotonCost * mean(work.light_rays) : 0.0) + kMergeCost * mean(work.merges);
     findings.costs = {path, bdpt, vcm};
     return findings;
 }

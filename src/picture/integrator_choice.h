@@ -1,0 +1,39 @@
+// The integrator of a scene for which none was asked: the one that a pilot finds to be the quickest.
+#pragma once
+
+#include "core/parallel.h"
+#include "scene/render_settings.h"
+#include "world/world.h"
+
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// Says what may be chosen.
+struct IntegratorNeeds {
+    bool strategies = false;  ///< the integrator has strategies
+    bool no_splats = false;   ///< it leaves no splats
+};
+
+/// Returns the integrators that a pilot may choose from, those that serve what `settings` ask for. Throws SceneError
+/// for settings that none could serve.
+[[nodiscard]] std::vector<std::string> integrators_to_choose(const RenderSettings& settings,
+                                                             const IntegratorNeeds& needs = {});
+
+/// Puts the first of those in place of `auto`, so that all else can be set up, and returns them; returns nothing where
+/// `settings` name an integrator.
+[[nodiscard]] std::vector<std::string> replace_auto(RenderSettings& settings, const IntegratorNeeds& needs = {});
+
+/// Holds what was chosen.
+struct IntegratorChoice {
+    std::string integrator;  ///< name in the registry
+    std::string reason;      ///< a sentence that names it
+};
+
+/// Chooses one of `integrators` for `world`. The choice depends on the scene and the settings alone.
+[[nodiscard]] IntegratorChoice choose_integrator(const World& world, const RenderSettings& settings,
+                                                 const std::vector<std::string>& integrators,
+                                                 const ThreadPool& threads);
+
+}  // namespace etendue
