@@ -263,7 +263,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
         command.add_option("--integrators", arguments.integrators,
                            "Algorithms to compare, separated by commas (default: path,bdpt, and vcm where the "
                            "scene has mirrors or smooth glass)");
-    integrators->delimiter(',')->allow_extra_args(false)->check(CLI::IsMember(integrator_names()));
+    integrators->delimiter(',')->allow_extra_args(false)->check(CLI::IsMember(integrator_setting_names()));
     for (std::size_t i = 0; i < kLetters.size(); ++i)
         command
             .add_option(fmt::format("--variant-{}", kLetters[i]), arguments.variants[i],

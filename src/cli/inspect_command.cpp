@@ -6,6 +6,7 @@
 #include "core/standard_output.h"
 #include "loader/loader.h"
 #include "picture/aov_setup.h"
+#include "picture/integrator_choice.h"
 #include "picture/render_setup.h"
 #include "picture/scene_completion.h"
 #include "processor/ray_code.h"
@@ -104,7 +105,9 @@ Inspection inspect(const std::string& path, LoadOptions options) {
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
     try {
         complete_scene(scene, result.problems);
-        (void)create_integrator(scene.settings);
+        RenderSettings settings = scene.settings;
+        (void)replace_auto(settings);
+        (void)create_integrator(settings);
         (void)make_aov_plan(scene, result.problems);
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();

@@ -2,6 +2,7 @@
 
 #include "core/log.h"
 #include "loader/loader.h"
+#include "picture/integrator_choice.h"
 #include "picture/render_setup.h"
 #include "process/shell_word.h"
 #include "processor/ray_code.h"
@@ -100,6 +101,12 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
         if (request.is_for_mirrors && !variant.world->traits().has_specular_surfaces) continue;
         if (variants.empty() && !quiet)
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
+        if (variant.settings.integrator.type == kAutoIntegrator) {
+            const IntegratorChoice choice =
+                choose_integrator(*variant.world, variant.settings, integrators_to_choose(variant.settings), threads);
+            variant.settings.integrator.type = choice.integrator;
+            if (!quiet) log_info("{}: auto chose {}", variant.name, choice.reason);
+        }
         complete(variant);
         if (!quiet)
             for (const auto& notes : {variant.integrator->ineffective_options(*variant.world),

@@ -17,8 +17,10 @@ namespace etendue {
 
 namespace {
 
-/// Counts the pixels of the pilot's image, about.
-constexpr double kPilotPixels = 4096.0;
+/// Bounds the pixels of the pilot's image.
+constexpr double kMostPilotPixels = 4096.0;
+/// Gives the pixels of the pilot's image in those of the render's, where that is small.
+constexpr double kPilotShare = 1.0 / 16.0;
 /// Counts the samples of each of its pixels.
 constexpr std::uint32_t kPilotSamples = 4;
 /// Counts the samples per pixel of the render that integrators are compared for: what one cannot find is an error that
@@ -163,7 +165,8 @@ SampleWork take_samples(const World& world, const IntegratorSettings& settings, 
 
 PilotFindings run_pilot(const World& world, const IntegratorSettings& settings, int width, int height,
                         const ThreadPool& threads) {
-    const double side = std::sqrt(kPilotPixels / (static_cast<double>(width) * static_cast<double>(height)));
+    const double pixels = static_cast<double>(width) * static_cast<double>(height);
+    const double side = std::sqrt(std::min(kMostPilotPixels / pixels, kPilotShare));
     const auto scaled = [&](int of) {
         return std::max(1, static_cast<int>(std::lround(side * static_cast<double>(of))));
     };

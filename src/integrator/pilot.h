@@ -23,8 +23,8 @@ struct PilotFindings {
 /// Names the integrators of the registry that a pilot compares.
 inline constexpr PerIntegrator<std::string_view> kComparedNames{"path", "bdpt", "vcm"};
 
-/// Takes a fixed number of samples of `world`, of an image with the proportions of `width` to `height`. The findings
-/// are the same on every machine and for any number of threads.
+/// Takes a few samples of `world`, of an image with the proportions of `width` to `height`: a number that depends on
+/// these alone. The findings are the same on every machine and for any number of threads.
 [[nodiscard]] PilotFindings run_pilot(const World& world, const IntegratorSettings& settings, int width, int height,
                                       const ThreadPool& threads);
 

@@ -31,32 +31,30 @@ std::string reason_for(const PilotFindings& findings, std::size_t best, const st
     std::string others;
     for (const std::size_t other : integrators) {
         if (other == best) continue;
-        others += fmt::format("{}'{}' takes {} times as long", others.empty() ? "" : " and ", kComparedNames.at(other),
+        others += fmt::format("{}'{}' takes {} times", others.empty() ? "" : " and ", kComparedNames.at(other),
                               times(findings.time_to_error(other) / findings.time_to_error(best)));
     }
-    if (others.empty()) return fmt::format("'{}' serves what is asked for", kComparedNames.at(best));
-    return fmt::format("'{}'; for as little noise {}", kComparedNames.at(best), others);
+    if (others.empty()) return fmt::format("'{}', which alone serves what is asked for", kComparedNames.at(best));
+    return fmt::format("'{}': for as little noise {} as long", kComparedNames.at(best), others);
 }
 
 }  // namespace
 
-std::vector<std::string> integrators_to_choose(const RenderSettings& settings, const IntegratorNeeds& needs) {
+std::vector<std::string> integrators_to_choose(const RenderSettings& settings) {
     std::vector<std::string> integrators;
     for (const std::string_view name : kComparedNames) {
         RenderSettings with = settings;
         with.integrator.type = name;
-        if (needs.strategies && !has_strategies(with.integrator.type)) continue;
         if (settings.integrator.strategy && !has_strategies(with.integrator.type)) continue;
-        const auto integrator = create_integrator(with);
-        if (needs.no_splats && integrator->makes_splats()) continue;
+        (void)create_integrator(with);
         integrators.emplace_back(name);
     }
     return integrators;
 }
 
-std::vector<std::string> replace_auto(RenderSettings& settings, const IntegratorNeeds& needs) {
+std::vector<std::string> replace_auto(RenderSettings& settings) {
     if (settings.integrator.type != kAutoIntegrator) return {};
-    std::vector<std::string> integrators = integrators_to_choose(settings, needs);
+    std::vector<std::string> integrators = integrators_to_choose(settings);
     settings.integrator.type = integrators.front();
     return integrators;
 }

@@ -10,20 +10,13 @@
 
 namespace etendue {
 
-/// Says what may be chosen.
-struct IntegratorNeeds {
-    bool strategies = false;  ///< the integrator has strategies
-    bool no_splats = false;   ///< it leaves no splats
-};
-
 /// Returns the integrators that a pilot may choose from, those that serve what `settings` ask for. Throws SceneError
 /// for settings that none could serve.
-[[nodiscard]] std::vector<std::string> integrators_to_choose(const RenderSettings& settings,
-                                                             const IntegratorNeeds& needs = {});
+[[nodiscard]] std::vector<std::string> integrators_to_choose(const RenderSettings& settings);
 
 /// Puts the first of those in place of `auto`, so that all else can be set up, and returns them; returns nothing where
 /// `settings` name an integrator.
-[[nodiscard]] std::vector<std::string> replace_auto(RenderSettings& settings, const IntegratorNeeds& needs = {});
+[[nodiscard]] std::vector<std::string> replace_auto(RenderSettings& settings);
 
 /// Holds what was chosen.
 struct IntegratorChoice {

@@ -117,7 +117,7 @@ struct MetadataSettings {
 inline constexpr std::string_view kNoAnimation = "none";
 
 struct RenderSettings {
-    IntegratorSettings integrator;
+    IntegratorSettings integrator{.type = std::string(kAutoIntegrator)};
     SamplerType sampler = SamplerType::Sobol;
     int spp = 64;  ///< samples per pixel, [1, 2^24]
     std::uint32_t seed = 0;

@@ -76,7 +76,7 @@ class SceneRender {
         // Before names are resolved: batch compares it with that of a scene that was only prepared.
         const std::string hash = settings_hash(scene_, request_.overrides.depth);
         const std::string requested = requested_settings(scene_.settings);
-        to_choose_ = replace_auto(scene_.settings, {.strategies = !request_.strategies.output.empty()});
+        to_choose_ = replace_auto(scene_.settings);
         options_ = options_of(scene_.settings);
         integrator_ = create_integrator(scene_.settings);
         aovs_ = make_aov_plan(scene_, problems_);
@@ -88,15 +88,13 @@ class SceneRender {
     }
 
     SceneRenderResult run() {
-        std::optional<World> compiled;
-        if (!to_choose_.empty()) choose(compiled.emplace(compile()));
         std::optional<Checkpoint> kept = read_kept();
         if (kept && is_finished_part(*kept)) return finished_part(*kept);
         if (kept && !request_.quiet)
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
-        if (!compiled) compiled.emplace(compile());
-        const World& world = *compiled;
+        const World world = compile();
+        if (!to_choose_.empty()) choose(world);
         if (!request_.quiet)
             for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
         require_image_module();
@@ -124,6 +122,13 @@ class SceneRender {
 
     /// Returns true for a part that does not cover the whole image.
     [[nodiscard]] bool is_crop() const { return options_.window != options_.splat_window; }
+
+    void require_crop_without_splats() const {
+        if (is_partial(output_) && is_crop() && is_deep() && integrator_->makes_splats())
+            throw SceneError({"--deep", {}},
+                             "a part that is a crop has no depths of the light that falls into others: render "
+                             "parts that are ranges of samples (--samples), or with 'path'");
+    }
 
     [[nodiscard]] RenderOptions options_of(const RenderSettings& settings) const {
         return is_partial(output_) ? make_part_options(settings, request_.samples) : make_render_options(settings);
@@ -156,10 +161,7 @@ class SceneRender {
             if (intersection(options_.window, options_.splat_window) != options_.window)
                 throw SceneError(scene_.settings.at("/crop"),
                                  "a part lies within the image and its overscan: give it --overscan as well");
-            if (is_crop() && is_deep() && integrator_->makes_splats())
-                throw SceneError({"--deep", {}},
-                                 "a part that is a crop has no depths of the light that falls into others: render "
-                                 "parts that are ranges of samples (--samples), or with 'path'");
+            require_crop_without_splats();
             require_writable(output_);
             return;
         }
@@ -216,6 +218,10 @@ class SceneRender {
         s.instruction_set = instruction_set_name(ray_code().instruction_set);
         identity_ = render_identity(scene_, s.inputs, working_space);
         settings_ = scene_.settings;
+        if (to_choose_.empty()) return;
+        RenderSettings asked = settings_;
+        asked.integrator.type = kAutoIntegrator;
+        for (const auto& [name, text] : settings_identity(asked)) identity_[name] = text;
     }
 
     [[nodiscard]] std::uint32_t first_sample() const { return request_.samples ? request_.samples->begin : 0; }
@@ -275,19 +281,15 @@ class SceneRender {
         return world;
     }
 
-    /// Has a pilot choose the integrator, and all that depends on it follow.
+    /// Has a pilot choose the integrator, and all that depends on it follow. The identity names what was asked for:
+    /// with the scene and the program it decides what is chosen.
     void choose(const World& world) {
         const PhaseTimer timer;
-        const bool leaves_no_splats = is_partial(output_) && is_crop() && is_deep();
-        const IntegratorChoice choice = choose_integrator(
-            world, settings_, leaves_no_splats ? integrators_to_choose(settings_, {.no_splats = true}) : to_choose_,
-            threads_);
+        const IntegratorChoice choice = choose_integrator(world, settings_, to_choose_, threads_);
         settings_.integrator.type = choice.integrator;
-        const std::shared_ptr<const AovSet> aovs = options_.aovs;
-        options_ = options_of(settings_);
-        options_.aovs = aovs;
+        options_.adaptive = options_of(settings_).adaptive;
         integrator_ = create_integrator(settings_);
-        for (const auto& [name, text] : settings_identity(settings_)) identity_[name] = text;
+        require_crop_without_splats();
         describe_integrator(description_, settings_);
         description_.statistics.integrator_choice = choice.reason;
         const PhaseTime taken = timer.elapsed();

@@ -186,7 +186,7 @@ TEST_F(Batch, VariantsAreImagesOfTheirOwn) {
     write_file(file, text);
     const ProgramResult result = run({"--variants"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(fs::exists(work_ / "out/shoe.red.exr"));
+    EXPECT_TRUE(fs::exists(work_ / "out/shoe.red.exr")) << result.err << result.out;
     EXPECT_NE(read_file(work_ / "out/shoe.red.png"), read_file(work_ / "out/shoe.sky blue.png"));
     EXPECT_NE(run({"--variants"}).err.find("2 images, all up to date"), std::string::npos);
     EXPECT_EQ(run({"--variants", "--variant", "red"}).exit_code, 2);

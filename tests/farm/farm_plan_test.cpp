@@ -145,7 +145,8 @@ TEST(FarmNeeds, OfMergesGrowWithPixelsAndParts) {
 
 TEST(FarmNeeds, OfLayersAreThoseOfTheirSumsAndChannels) {
     const TestFolder folder;
-    write_scene(folder / "box", R"("aovs": ["passes", "depth", "variance", "denoising"], )");
+    write_scene(folder / "box",
+                R"("integrator": {"type": "path"}, "aovs": ["passes", "depth", "variance", "denoising"], )");
     const FilmSize path = film_size_of(prepare_scene(folder / "box", {}).scene);
     EXPECT_TRUE(path.has_second_film);
     // Ten layers of light, seven sums for the variance, two averaged features of three channels; the distance and a

@@ -97,7 +97,7 @@ TEST(Pilot, TellsTheErrorsOfRenders) {
     const PilotScene scene = pilot_scene("cornell-box", threads);
     IntegratorSettings settings = scene.settings.integrator;
     settings.lamp_images = false;
-    const PilotFindings findings = run_pilot(scene.world, settings, 64, 64, threads);
+    const PilotFindings findings = run_pilot(scene.world, settings, 256, 256, threads);
     for (std::size_t i = 0; i < 2; ++i) {
         const double measured = measured_error(scene, std::string(kComparedNames.at(i)), threads);
         EXPECT_GT(findings.errors.at(i), 0.65 * measured) << kComparedNames.at(i);

@@ -79,7 +79,7 @@ RenderStatistics make_statistics() {
 TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
-        "scene": "cornell-box", "integrator": "bdpt", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
+        "scene": "cornell-box", "integrator": "bdpt", "integrator_choice": "'path', since nothing else is needed", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
         "settings": {"/spp": 8, "/color/exposure": 0.1}, "requested_settings": {"/spp": 8},
         "command": "etendue render box",
         "inputs": [{"path": "textures/sky.exr", "size": 12, "modified": 34, "content": "0123"}],

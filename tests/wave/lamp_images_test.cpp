@@ -108,6 +108,31 @@ TEST(LampImages, AreFoundWhereAMirrorShowsThem) {
     EXPECT_EQ(find_lamp_images(compile(empty_scene()), job_of_all(filter), window), nullptr);
 }
 
+// The middle of the pixel sees past the mirror, which is a strip 0.4 pixels wide.
+TEST(LampImages, AreFoundAtTheEdgeOfAMirror) {
+    const World camera = compile(lamp_in_a_mirror());
+    const float left = image_position(camera, {0.0f, 0.0f, 1.0f}).x;
+    const float pixels_per_metre = image_position(camera, {1.0f, 0.0f, 1.0f}).x - left;
+    const auto lamp_x = [&](float film) { return (film - left) / pixels_per_metre; };
+    // The image lies behind the mirror, at two and a half times its distance.
+    const float middle = 0.4f * lamp_x(4.1f);
+    const float half = 0.4f * 0.2f / std::abs(pixels_per_metre);
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = kMirrorSide;
+    scene.settings.film.height = kMirrorSide;
+    add_object(scene, quad({middle, 0, -kMirrorDistance}, {half, 0, 0}, {0, 3, 0}),
+               add_material(scene, perfect_mirror()));
+    const Vec3f lamp{lamp_x(4.15f), 0.12f, 1.0f};
+    add_object(scene, quad(lamp, {-kTinyLampHalf, 0, 0}, {0, kTinyLampHalf, 0}),
+               add_material(scene, emissive(Rgb(kTinyLampRadiance))));
+    const World world = compile(scene);
+    const PixelFilter filter(FilterShape::Box);
+    const auto images = find_lamp_images(world, job_of_all(filter), {0, 0, kMirrorSide, kMirrorSide});
+    ASSERT_NE(images, nullptr);
+    EXPECT_NEAR(image_position(world, lamp).x, 4.15f, 0.01f);
+    EXPECT_TRUE(images->contain(image_position(world, lamp)));
+}
+
 // The sum over the pixels is the radiance times the image's area, whatever the filter. The standard error of 512
 // samples is below 3% (two samples each, of which one in ten or more meets the lamp); six of them are asked for. With
 // the image left to chance, one sample in 6,000 of one pixel meets it.
