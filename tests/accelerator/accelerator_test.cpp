@@ -269,6 +269,27 @@ TEST(TriangleTest, SaysWhereTheRayMeetsTheTriangle) {
     EXPECT_FALSE(closest_of(*brute, {.origin = {-1, 1, 2}, .direction = {1, 0, 0}}).valid()) << "in its plane";
 }
 
+TEST(TriangleTest, MeetsOneOfTwoTrianglesAtTheEdgeThatTheyShare) {
+    Triangles triangles{{{-1, 0, 1}, {0, -1, 1}, {0, 1, 1}}, {{1, 0, 1}, {0, 1, 1}, {0, -1, 1}}};
+    // From both sides, and with each corner opposite of the edge.
+    for (int order = 0; order < 6; ++order) {
+        for (Triangle& t : triangles) t = order == 3 ? Triangle{t.a, t.c, t.b} : Triangle{t.b, t.c, t.a};
+        const auto brute = build_accelerator(AcceleratorKind::BruteForce, triangles);
+        for (const float y : {-1.0f, -0.3f, 0.0f, 1.0f})
+            EXPECT_EQ(closest_of(*brute, {.origin = {0, y, 0}, .direction = {0, 0, 1}}).triangle, 0u)
+                << order << " " << y;
+    }
+}
+
+// In single precision, corners this far away would move the hit by centimetres.
+TEST(TriangleTest, IsExactForLargeTriangles) {
+    const float far = 1e6f;
+    const Triangles triangles{{{-far, -far, -far}, {far, -far, far}, {0, 2 * far, 0}}};
+    const auto brute = build_accelerator(AcceleratorKind::BruteForce, triangles);
+    const TriangleHit hit = closest_of(*brute, {.origin = {0, 0.3f, 5.3f}, .direction = {0.6f, 0, -0.8f}});
+    EXPECT_NEAR(hit.t, 5.3 / 1.4, 1e-6);
+}
+
 // Seen from inside, no ray leaves a closed surface, not even one that is aimed at an edge or a corner.
 TEST(Accelerator, NoRayPassesBetweenTriangles) {
     const Triangles triangles = ball(40);
