@@ -17,15 +17,15 @@ namespace etendue {
 
 namespace {
 
-/// Throws SceneError if `kind` cannot be built over `data`.
-void require_still_and_small(const WorldData& data, AcceleratorKind kind) {
-    const auto refuse = [&](const std::string& reason) {
-        throw SceneError({"--accelerator", {}}, fmt::format("{}: {}; take embree", accelerator_name(kind), reason));
+/// Throws SceneError if nothing but Embree can be built over `data`.
+void require_still_and_small(const WorldData& data) {
+    const auto refuse = [](const std::string& reason) {
+        throw SceneError({}, "accelerators beside Embree cannot have this scene: " + reason);
     };
     const bool has_motion = !data.motions.empty() || std::ranges::any_of(data.geometries, [](const Geometry& geometry) {
         return !geometry.motion.empty();
     });
-    if (has_motion) refuse("something moves while the shutter is open, which it does not know");
+    if (has_motion) refuse("something moves while the shutter is open");
     std::size_t triangles = 0;
     for (const Instance& instance : data.instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
@@ -77,7 +77,7 @@ class AcceleratedScene::Filter final : public TriangleFilter {
 };
 
 AcceleratedScene::AcceleratedScene(const WorldData& data, AcceleratorKind kind) : data_(data) {
-    require_still_and_small(data, kind);
+    require_still_and_small(data);
     for (std::uint32_t i = 0; i < data.instances.size(); ++i) {
         const Instance& instance = data.instances[i];
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
