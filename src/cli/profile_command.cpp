@@ -1,6 +1,7 @@
 // etendue profile: where the time of a render goes, next to what bare Embree needs for its rays.
 #include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/profile_accelerators.h"
 #include "cli/settings_options.h"
 #include "core/log.h"
 #include "core/memory_nodes.h"
@@ -77,6 +78,7 @@ struct ProfileArguments {
     int repetitions = kDefaultRepetitions;
     std::string against;
     double tolerance = ProfileComparisonOptions{}.tolerance;
+    AcceleratorArguments accelerators;
     SettingsOverrides overrides;
     std::string command;
     bool quiet = false;
@@ -127,7 +129,7 @@ class LoadedScene {
         report.load.push_back({"start of the process", seconds_since_process_start()});
         PreparedScene prepared = prepare_scene(arguments.scene, arguments.overrides);
         report.load.push_back({"files", prepared.load.wall});
-        const std::string working_space = resolve_colors(prepared.scene.settings, colors);
+        working_space = resolve_colors(prepared.scene.settings, colors);
         settings = prepared.scene.settings;
         inputs = prepared.scene.inputs;
         if (!arguments.against.empty()) inputs.emplace_back(arguments.against);
@@ -147,6 +149,7 @@ class LoadedScene {
     }
 
     RenderSettings settings;
+    std::string working_space;
     std::vector<std::filesystem::path> inputs;  ///< files that are read, the baseline among them
     std::unique_ptr<const World> world;
 };
@@ -294,8 +297,10 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     const LoadedScene loaded(arguments, colors, all, report);
     describe(report, arguments, loaded.settings, *loaded.world);
     if (baseline) require_comparable(*baseline, report, arguments, threads);
+    require_acceleratable(*loaded.world, accelerator_kinds(arguments.accelerators.names));
     const std::filesystem::path directory = arguments.output;
     std::vector<std::string> names{kData, "trace.json", "index.html"};
+    for (const std::string& name : accelerator_pictures(arguments.accelerators)) names.push_back(name);
     for (const std::string& name : heat_maps_in(directory)) names.push_back(name);
     for (const std::string& integrator : arguments.integrators)
         for (const int count : threads)
@@ -317,6 +322,14 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     describe_memory(report, *loaded.world, measured);
     if (baseline) report.against = compare_profiles(*baseline, report, {.tolerance = arguments.tolerance});
     ProfileImages images;
+    const FilmSettings& film = loaded.settings.film;
+    const auto compile = [&](SceneDesc scene) {
+        ProblemList none;
+        return ray_code().compile_world(std::move(scene), colors, loaded.working_space, all, none, {});
+    };
+    if (!measure_and_write_accelerators(*loaded.world, arguments.accelerators, measured.rays, film.width, film.height,
+                                        compile, directory, report, images))
+        return interrupt_exit_code();
     const auto write_report = [&] {
         write_text(files[0], to_json(report));
         write_text(files[1], to_chrome_trace(report));
@@ -382,6 +395,7 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
                     "How much slower counts as none for --against, relative (default: 0.02)")
         ->check(real_range(0.0, 10.0))
         ->needs(against);
+    add_accelerator_options(command, arguments.accelerators);
     command.add_flag("--quiet", arguments.quiet, "No progress, notes or tables; errors only");
     command.add_flag("--json", arguments.json, "Print profile.json on stdout in place of the tables");
 }
@@ -415,6 +429,7 @@ void add_profile_command(CLI::App& app, Action& action) {
         "Examples:\n"
         "  etendue profile scenes/cornell-box -o profile\n"
         "  etendue profile scenes/caustic-glass --integrators bdpt --threads 1,2 --seconds 5 -o profile\n"
+        "  etendue profile scenes/diamond --accelerators embree,bvh,kdtree,grid,brute --growth 100000 -o profile\n"
         "  etendue profile scenes/cornell-box --against before/profile.json --repeat 15 -o after");
     command->callback([arguments, command, &action] {
         refuse_options(*command, kRefusedOptions);

@@ -153,6 +153,7 @@ class RunMeasurement {
         if (!render(setup, progressive, std::numeric_limits<double>::infinity(), run.spp)) return false;
         run.instrumented_seconds = progressive.state().wall_seconds;
         const WaveProfile waves = profile.total();
+        result_.rays.add(waves);
         describe_stages(run, profile, waves);
         describe_paths(run, waves);
         describe_tiles(run, profile);

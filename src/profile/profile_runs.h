@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "profile/accelerator_runs.h"
 #include "render/render.h"
 #include "report/profile_report.h"
 #include "scene/render_settings.h"
@@ -38,6 +39,7 @@ struct ProfileRuns {
     std::size_t wave_bytes = 0;           ///< bytes that threads keep between tiles, in the run that keeps most
     std::size_t tile_bytes = 0;           ///< bytes of tiles under way and splats that wait, in the run with most
     std::uint64_t peak_memory_bytes = 0;  ///< before anything was recorded
+    RecordedRays rays{};                  ///< some of those that were traced again, of all integrators together
     bool interrupted = false;             ///< there may be fewer repetitions then, or none
 };
 

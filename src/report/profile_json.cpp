@@ -1,3 +1,4 @@
+#include "report/accelerator_json.h"
 #include "report/json_values.h"
 #include "report/profile_figures.h"
 #include "report/profile_report.h"
@@ -213,6 +214,7 @@ std::string to_json(const ProfileReport& report) {
                   {"memory", {{"owners", counted(report.memory, "bytes")}, {"peak_bytes", report.peak_memory_bytes}}},
                   {"notes", report.notes},
                   {"against", report.against ? to_object(*report.against) : Json()},
+                  {"accelerators", report.accelerators ? accelerators_object(*report.accelerators) : Json()},
                   {"runs", array_of(report.runs)}});
 }
 

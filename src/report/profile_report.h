@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/pixel_rect.h"
+#include "report/accelerator_report.h"
 #include "report/profile_comparison.h"
 
 #include <array>
@@ -135,6 +136,7 @@ struct ProfileReport {
     std::uint64_t peak_memory_bytes = 0;
     std::vector<std::string> notes{};
     std::vector<ProfileRun> runs{};  ///< by integrator, then by threads
+    std::optional<AcceleratorReport> accelerators{};
     std::optional<ProfileComparison> against{};
 };
 

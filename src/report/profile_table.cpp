@@ -174,6 +174,7 @@ std::string to_table(const ProfileReport& report) {
         kIndent);
     for (const ProfileRun& run : report.runs) text += run_text(run);
     text += '\n' + phases(report) + '\n' + bvh_text(report.bvh) + '\n' + memory(report);
+    if (report.accelerators) text += '\n' + to_table(*report.accelerators);
     if (!report.notes.empty()) text += '\n';
     for (const std::string& note : report.notes) text += wrapped("Note: " + note, kIndent);
     if (report.against) text += '\n' + to_table(*report.against);

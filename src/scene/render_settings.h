@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/pixel_rect.h"
+#include "scene/accelerator_kind.h"
 #include "scene/aov_desc.h"
 #include "scene/integrator_settings.h"
 #include "scene/light_desc.h"
@@ -141,6 +142,7 @@ struct RenderSettings {
     LightUnits light_units = LightUnits::Photometric;
     std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
     MissingTextures missing_textures = MissingTextures::Warn;
+    AcceleratorKind accelerator = AcceleratorKind::Embree;  ///< what finds the surfaces that rays meet
     FilmSettings film;
     std::vector<AovDesc> aovs;  ///< layers to write besides the image
     AovLayout aov_layout = AovLayout::Layers;

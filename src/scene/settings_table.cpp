@@ -554,6 +554,15 @@ constexpr std::array kRows{
             .help = "`warn`: materials do without a texture that is missing or broken; `error`: the scene is refused",
             .page = "gltf.md#missing-textures",
             .place = named_at<kMissingTexturesNames>([](auto& s) -> auto& { return s.missing_textures; })},
+    Setting{
+        .pointer = "/accelerator",
+        .option = "--accelerator",
+        .type = kChoiceOf<kAcceleratorNames>,
+        .decides = Decides::Samples,
+        .help = "What finds the surfaces that rays meet; all but `embree` are for teaching, many times as slow, and "
+                "refuse scenes in which something moves while the shutter is open",
+        .page = "accelerators.md",
+        .place = named_at<kAcceleratorNames>([](auto& s) -> auto& { return s.accelerator; })},
     Setting{.pointer = "/aovs",
             .option = "--aov",
             .type = Texts{{kAovForm, "^[A-Za-z0-9_-]{1,100}(=.+)?(:[0-9]{1,9})?(:half|:float)?$", parses<parse_aov>}},

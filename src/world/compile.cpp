@@ -74,6 +74,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     data.xyz_to_working = xyz_to_working(data.from_rec709);
     data.response = SpectralResponse(data.xyz_to_working);
     data.origin = scene.origin;
+    data.accelerator = scene.settings.accelerator;
     data.camera = compile_camera(scene);
     data.camera_motion = compile_camera_motion(scene);
 

@@ -1,8 +1,8 @@
 #include "world/embree_scene.h"
 
 #include "core/error.h"
-#include "sampling/hash.h"
 #include "world/embree_query.h"
+#include "world/stochastic_opacity.h"
 
 #include <algorithm>
 #include <array>
@@ -35,14 +35,11 @@ Hit hit_of(const RTCFilterFunctionNArguments& args, unsigned int i) {
                             RTCRayN_time(args.ray, args.N, i));
 }
 
-/// Whether a partly transparent surface stops ray `i` of a packet, with the probability of its opacity. The decision is
-/// a hash of the ray's key and the triangle, so that a ray decides the same way however often Embree asks.
+/// Returns true if a partly transparent surface stops ray `i` of a packet.
 bool stops(const RTCFilterFunctionNArguments& args, unsigned int i, const Hit& hit) {
     const QueryContext& context = context_of(args);
     const float opacity = context.scene->opacity(hit.geometry, hit.triangle, {hit.u, hit.v});
-    const std::uint32_t key = context.alpha_key(RTCRayN_id(args.ray, args.N, i));
-    const std::uint32_t bits = hash_combine(hash_combine(hash_combine(key, hit.instance), hit.geometry), hit.triangle);
-    return to_unit_float(bits) < opacity;
+    return stops_ray(context.alpha_key(RTCRayN_id(args.ray, args.N, i)), hit, opacity);
 }
 
 /// Lets rays pass where a surface does not stop them: all that have an end at the camera if `Hidden`, others by its

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <vector>
 
 namespace etendue {
@@ -48,6 +49,8 @@ double replay_single(RTCScene top, std::span<const Ray> rays, QueryContext& cont
 double EmbreeScene::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
     const bool coherent = !occlusion && takes_as_coherent(coherence) && form != QueryForm::Single;
     QueryContext context(*this, rays, coherent);
+    std::vector<std::uint8_t> passed(rays.size());  // where filter functions say which shadow rays pass panes
+    context.passed = passed.data();
     switch (form) {
         case QueryForm::Single:
             return replay_single(top_, rays, context, occlusion);

@@ -1,6 +1,7 @@
 #include "world/scene_geometry.h"
 
 #include "core/vector_bytes.h"
+#include "world/accelerated_scene.h"
 #include "world/cone_section.h"
 #include "world/contacts.h"
 #include "world/embree_scene.h"
@@ -51,29 +52,53 @@ SceneGeometry::SceneGeometry(const WorldData& data, const Materials& materials) 
     data_.bvh->set_opacity(opacity_callback, &data_);
     if (data_.panes) data_.panes->set_opacity(opacity_callback, &data_);
     if (data_.contacts) data_.contacts->set_opacity(opacity_callback, &data_);
+    if (data_.accelerator != AcceleratorKind::Embree) accelerated_ = accelerate(data_.accelerator);
     has_far_triangles_ = triangle_bytes() + data_.bvh->bytes() > kCachedGeometry;
+}
+
+SceneGeometry::~SceneGeometry() = default;
+
+std::unique_ptr<const AcceleratedScene> SceneGeometry::accelerate(AcceleratorKind kind) const {
+    return std::make_unique<const AcceleratedScene>(data_, kind);
 }
 
 void SceneGeometry::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
                               RayEnds ends) const {
-    data_.bvh->intersect(rays, hits, coherence, form, ends);
-    if (data_.contacts) settle_contacts(data_, materials_, rays, hits, ends);
+    intersect_batch(rays, hits, coherence, form, ends);
 }
 
 void SceneGeometry::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
                               RayEnds ends) const {
-    data_.bvh->intersect(rays, hits, coherence, form, ends);
+    intersect_batch(rays, hits, coherence, form, ends);
+}
+
+template <typename Batch>
+void SceneGeometry::intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                                    RayEnds ends) const {
+    if (accelerated_)
+        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = accelerated_->closest(rays[i], ends);
+    else
+        data_.bvh->intersect(rays, hits, coherence, form, ends);
     if (data_.contacts) settle_contacts(data_, materials_, rays, hits, ends);
 }
 
 void SceneGeometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form,
                              RayEnds ends) const {
-    data_.bvh->occluded(rays, occluded, form, ends);
+    occluded_batch(rays, occluded, form, ends);
 }
 
 void SceneGeometry::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form,
                              RayEnds ends) const {
-    data_.bvh->occluded(rays, occluded, form, ends);
+    occluded_batch(rays, occluded, form, ends);
+}
+
+template <typename Batch>
+void SceneGeometry::occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form,
+                                   RayEnds ends) const {
+    if (accelerated_)
+        for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = accelerated_->occlusion(rays[i], ends);
+    else
+        data_.bvh->occluded(rays, occluded, form, ends);
 }
 
 double SceneGeometry::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {

@@ -5,6 +5,7 @@
 #include "core/ray.h"
 #include "core/ray_columns.h"
 #include "core/ray_cone.h"
+#include "scene/accelerator_kind.h"
 #include "world/hit.h"
 #include "world/interpolation.h"
 #include "world/plain_surface.h"
@@ -13,18 +14,24 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace etendue {
 
+class AcceleratedScene;
 class Materials;
 
 /// Answers where rays hit surfaces, which ways are free, and how surfaces lie there. Ask for many rays at once, because
 /// that is what makes queries fast (docs/optimisation.md).
 class SceneGeometry {
   public:
-    /// Tells Embree how opaque surfaces are; `data` and `materials` have to stay where they are.
+    /// Tells Embree how opaque surfaces are; `data` and `materials` have to stay where they are. Builds the accelerator
+    /// that `data` asks for in place of Embree, and throws as `accelerate` does.
     SceneGeometry(const WorldData& data, const Materials& materials);
+    ~SceneGeometry();
+    SceneGeometry(const SceneGeometry&) = delete;
+    SceneGeometry& operator=(const SceneGeometry&) = delete;
 
     /// Finds the nearest hit of each ray; `hits` is as long as `rays`.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
@@ -43,6 +50,10 @@ class SceneGeometry {
     /// Returns the seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look
     /// at what they hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;
+
+    /// Builds `kind` (not Embree) over all surfaces, for as long as this lives. Throws SceneError if something moves
+    /// while the shutter is open, or if there are more triangles than `AcceleratedScene::kMostTriangles`.
+    [[nodiscard]] std::unique_ptr<const AcceleratedScene> accelerate(AcceleratorKind kind) const;
 
     /// Returns the surface at `hit` (valid), whose textures are read at a point. Rays that go on from it may meet
     /// others that touch it.
@@ -77,10 +88,17 @@ class SceneGeometry {
     [[nodiscard]] std::size_t triangle_bytes() const;
 
   private:
+    // A `Batch` is a span of rays or RayColumns.
+    template <typename Batch>
+    void intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                         RayEnds ends) const;
+    template <typename Batch>
+    void occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form, RayEnds ends) const;
     void fetch_far_triangles(std::span<const Hit> hits) const;
 
     const WorldData& data_;
     const Materials& materials_;
+    std::unique_ptr<const AcceleratedScene> accelerated_;  ///< null where Embree is asked
     bool has_far_triangles_;
 };
 

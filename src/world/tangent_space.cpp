@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kUnset = 0xffffffffu;
 
-using Triangle = std::array<std::uint32_t, 3>;
+using TriangleIndices = std::array<std::uint32_t, 3>;
 
 /// A number from 0 for all vertices that are equal.
 std::vector<std::uint32_t> weld(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
@@ -40,7 +40,8 @@ std::vector<std::uint32_t> weld(std::span<const Vec3f> positions, std::span<cons
 
 /// For every edge of every triangle, edge e going from corner e to the next, the triangle on its other side. Of edges
 /// with more than two sides, pairs that run in opposite directions are neighbours, first come first served.
-std::vector<std::uint32_t> find_neighbours(std::span<const Triangle> triangles, std::span<const std::uint32_t> welded) {
+std::vector<std::uint32_t> find_neighbours(std::span<const TriangleIndices> triangles,
+                                           std::span<const std::uint32_t> welded) {
     struct Edge {
         std::uint32_t low, high;
         std::uint32_t side;  ///< 3 * triangle + edge
@@ -49,7 +50,7 @@ std::vector<std::uint32_t> find_neighbours(std::span<const Triangle> triangles, 
     std::vector<Edge> edges;
     edges.reserve(3 * triangles.size());
     for (std::uint32_t side = 0; side < 3 * triangles.size(); ++side) {
-        const Triangle& t = triangles[side / 3];
+        const TriangleIndices& t = triangles[side / 3];
         const std::uint32_t a = welded[t[side % 3]];
         const std::uint32_t b = welded[t[(side + 1) % 3]];
         edges.push_back({std::min(a, b), std::max(a, b), side, a < b});
@@ -77,7 +78,7 @@ struct TriangleFrame {
     bool is_known = false;  ///< false if the triangle or its image has no area
 };
 
-TriangleFrame triangle_frame(const Triangle& t, std::span<const Vec3f> positions, std::span<const Vec2f> uv) {
+TriangleFrame triangle_frame(const TriangleIndices& t, std::span<const Vec3f> positions, std::span<const Vec2f> uv) {
     const Vec3f e1 = positions[t[1]] - positions[t[0]];
     const Vec3f e2 = positions[t[2]] - positions[t[0]];
     const Vec2f d1 = uv[t[1]] - uv[t[0]];
@@ -102,7 +103,7 @@ Vec3f project(const Vec3f& v, const Vec3f& normal) {
 class TangentGenerator {
   public:
     TangentGenerator(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<const Vec2f> uv,
-                     std::span<const Triangle> triangles)
+                     std::span<const TriangleIndices> triangles)
         : positions_(positions),
           normals_(normals),
           triangles_(triangles),
@@ -111,7 +112,7 @@ class TangentGenerator {
           group_of_corner_(3 * triangles.size(), kUnset),
           group_of_vertex_(positions.size(), kUnset) {
         frames_.reserve(triangles.size());
-        for (const Triangle& t : triangles) frames_.push_back(triangle_frame(t, positions, uv));
+        for (const TriangleIndices& t : triangles) frames_.push_back(triangle_frame(t, positions, uv));
     }
 
     TangentVertices generate() {
@@ -153,7 +154,7 @@ class TangentGenerator {
     /// Adds the direction of u at a corner, weighted by the corner's angle in the plane of the vertex.
     void add(std::uint32_t corner, Vec3f& sum) const {
         if (!frames_[corner / 3].is_known) return;
-        const Triangle& t = triangles_[corner / 3];
+        const TriangleIndices& t = triangles_[corner / 3];
         const std::uint32_t i = corner % 3;
         const Vec3f& n = normals_[t[i]];
         const Vec3f to_next = project(positions_[t[(i + 1) % 3]] - positions_[t[i]], n);
@@ -164,7 +165,7 @@ class TangentGenerator {
 
     [[nodiscard]] std::uint32_t vertex_of(std::uint32_t corner) const { return triangles_[corner / 3][corner % 3]; }
     [[nodiscard]] std::uint32_t corner_at(std::uint32_t triangle, std::uint32_t vertex) const {
-        const Triangle& t = triangles_[triangle];
+        const TriangleIndices& t = triangles_[triangle];
         return welded_[t[0]] == vertex ? 0 : welded_[t[1]] == vertex ? 1 : 2;
     }
     [[nodiscard]] bool is_free(std::uint32_t triangle) const {
@@ -211,7 +212,7 @@ class TangentGenerator {
 
     std::span<const Vec3f> positions_;
     std::span<const Vec3f> normals_;
-    std::span<const Triangle> triangles_;
+    std::span<const TriangleIndices> triangles_;
     std::vector<std::uint32_t> welded_;
     std::vector<std::uint32_t> neighbours_;
     std::vector<TriangleFrame> frames_;
@@ -225,7 +226,7 @@ class TangentGenerator {
 }  // namespace
 
 TangentVertices generate_tangents(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
-                                  std::span<const Vec2f> uv, std::span<const Triangle> triangles) {
+                                  std::span<const Vec2f> uv, std::span<const TriangleIndices> triangles) {
     return TangentGenerator(positions, normals, uv, triangles).generate();
 }
 

@@ -6,6 +6,7 @@
 #include "color/color_config.h"
 #include "core/bounds.h"
 #include "light/light.h"
+#include "scene/accelerator_kind.h"
 #include "texture/texture.h"
 #include "world/body.h"
 #include "world/geometry.h"
@@ -61,6 +62,8 @@ struct WorldData {
     std::vector<std::uint32_t> body_of_slot;     ///< body of (instance, geometry), or kNone; empty without bodies
     Bounds bounds;
     Vec3d origin{0.0};  ///< in the world that the scene's file describes; all else is relative to it
+    /// Says what `SceneGeometry` asks for what rays meet.
+    AcceleratorKind accelerator = AcceleratorKind::Embree;
     std::unique_ptr<EmbreeScene> bvh;
     std::unique_ptr<EmbreeScene> panes;  ///< for `collect`; null if there are none
     std::unique_ptr<Contacts> contacts;  ///< null if no surfaces touch for which that matters

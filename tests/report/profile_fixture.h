@@ -66,6 +66,18 @@ inline ProfileReport made_up_profile() {
     report.memory = {{"geometry", 1 << 20}, {"film", 1 << 19}};
     report.peak_memory_bytes = 3u << 20;
     report.notes = {"made up"};
+    report.accelerators = AcceleratorReport{
+        .measures = {{.name = "bvh",
+                      .triangles = 4000,
+                      .build_seconds = 0.25,
+                      .bytes = 128000,
+                      .nodes = 3000,
+                      .references = 4000,
+                      .depth = 17,
+                      .kinds = {{.kind = "camera", .traced = {1000, 2.5e6, 12.5, 3.25}, .ties = 2, .differ = 1}},
+                      .picture = "visits-bvh.exr",
+                      .picture_high = 40.0}},
+        .growth = {{.name = "embree", .triangles = 98, .build_seconds = 0.125, .bytes = 9000, .traced = {500, 5e6}}}};
     report.runs = {made_up_run(1, {2.0, 2.02, 1.98}), made_up_run(2, {2.1, 2.11, 2.09})};
     return report;
 }

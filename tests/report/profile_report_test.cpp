@@ -87,6 +87,24 @@ TEST(ProfileJson, HoldsWhatWasMeasured) {
     EXPECT_EQ(run["heat_map"]["key"], "heat/path-2");
 }
 
+TEST(ProfileJson, TellsOfAccelerators) {
+    const Json accelerators = Json::parse(to_json(made_up_profile()))["accelerators"];
+    const Json& measure = accelerators["measures"][0];
+    EXPECT_EQ(measure["name"], "bvh");
+    EXPECT_EQ(measure["nodes"], 3000);
+    EXPECT_EQ(measure["picture"], "visits-bvh.exr");
+    EXPECT_EQ(measure["kinds"], Json::array({{{"kind", "camera"},
+                                              {"rays", 1000},
+                                              {"rays_per_second", 2.5e6},
+                                              {"nodes_per_ray", 12.5},
+                                              {"triangles_per_ray", 3.25},
+                                              {"ties", 2},
+                                              {"differ", 1}}}));
+    EXPECT_EQ(accelerators["growth"][0]["triangles"], 98);
+    EXPECT_TRUE(accelerators["growth"][0]["nodes_per_ray"].is_null()) << "Embree does not tell";
+    EXPECT_TRUE(Json::parse(to_json(ProfileReport{}))["accelerators"].is_null());
+}
+
 TEST(ProfileJson, WhatIsNotKnownIsNull) {
     ProfileReport report = made_up_profile();
     report.runs[0].seconds.clear();
@@ -129,9 +147,10 @@ std::size_t longest_line(const std::string& text) {
 
 TEST(ProfileTable, SaysWhereTheTimeGoes) {
     const std::string table = to_table(made_up_profile());
-    for (const char* text : {"path, 2 threads", "camera", "intersect", "16.7%", "########", "0.62", "1.00 MiB",
-                             "most expensive tiles: (0, 0) 1.00 s (66.7%)", "9 vertices at (3, 4), sample 5",
-                             "cycles 2.00 G", "875 ms", "64 bytes a triangle", "2 processors at 2 memory nodes"})
+    for (const char* text :
+         {"path, 2 threads", "camera", "intersect", "16.7%", "########", "0.62", "1.00 MiB",
+          "most expensive tiles: (0, 0) 1.00 s (66.7%)", "9 vertices at (3, 4), sample 5", "cycles 2.00 G", "875 ms",
+          "2.50 M", "12.5", "64 bytes a triangle", "2 processors at 2 memory nodes"})
         EXPECT_NE(table.find(text), std::string::npos) << text << " is missing in\n" << table;
     EXPECT_EQ(table.find("nan"), std::string::npos) << table;
 }

@@ -146,6 +146,40 @@ ProfileRun make_run(const std::string& integrator, int threads) {
     return run;
 }
 
+/// Makes a structure that is `times` as slow as a tree.
+AcceleratorMeasure make_measure(const char* name, double times) {
+    AcceleratorMeasure measure{.name = name,
+                               .triangles = 640000,
+                               .build_seconds = 0.4 / times,
+                               .bytes = 30u << 20,
+                               .nodes = 500000,
+                               .references = 640000,
+                               .depth = 31,
+                               .picture = fmt::format("visits-{}.exr", name),
+                               .picture_high = 60.0};
+    for (const char* one : {"camera", "bounce", "shadow"})
+        measure.kinds.push_back({one, {65536, 2.1e6 / times, 31.0 * times, 6.4 * times}, 3, times > 2.0 ? 1u : 0u});
+    return measure;
+}
+
+AcceleratorReport make_accelerators() {
+    AcceleratorReport report;
+    report.measures = {make_measure("embree", 0.3), make_measure("bvh", 1.0), make_measure("grid", 4.0)};
+    for (TracedKind& one : report.measures[0].kinds) one.traced.nodes = one.traced.triangles = std::nan("");
+    for (double triangles = 100.0; triangles <= 1e6; triangles *= 10.0)
+        for (const AcceleratorMeasure& measure : report.measures) {
+            const TracedRays& traced = measure.kinds[0].traced;
+            const double growth = std::log10(triangles) / 6.0;
+            report.growth.push_back(
+                {measure.name,
+                 static_cast<std::uint64_t>(triangles),
+                 1e-6 * triangles,
+                 static_cast<std::uint64_t>(48.0 * triangles),
+                 {32768, traced.rays_per_second / growth, traced.nodes * growth, traced.triangles}});
+        }
+    return report;
+}
+
 ProfileReport make_report(int threads) {
     ProfileReport report{.program = "etendue 0.8 \"sample\"",
                          .created = "2026-11-22T08:12:03Z",
@@ -175,6 +209,7 @@ ProfileReport make_report(int threads) {
         report.runs.push_back(make_run(integrator, 1));
         if (threads > 1) report.runs.push_back(make_run(integrator, threads));
     }
+    report.accelerators = make_accelerators();
     ProfileReport before = report;
     for (double& seconds : before.runs.front().cpu_seconds) seconds *= 0.9;
     for (double& seconds : before.runs.back().cpu_seconds) seconds *= 1.2;
@@ -187,6 +222,9 @@ ProfileReport make_report(int threads) {
 void write_sample(const std::filesystem::path& directory, const ProfileReport& report) {
     ProfileImages images;
     for (const ProfileRun& run : report.runs) images[heat_map_key(run)] = encode_png(heat_map());
+    if (report.accelerators)
+        for (const AcceleratorMeasure& measure : report.accelerators->measures)
+            images["visits/" + measure.name] = encode_png(heat_map());
     write_text(directory / "profile.json", to_json(report));
     write_text(directory / "index.html", make_profile_page(report, images));
     write_text(directory / "trace.json", to_chrome_trace(report));

@@ -18,6 +18,11 @@ SceneDesc scene_with_holes() {
     sheet.base_alpha = 0.5f;
     add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, sheet));
     add_object(scene, sphere({0, 0, -3}, 0.5f, 64), add_material(scene, diffuse(Rgb(0.5f))));
+    MaterialDesc pane;
+    pane.transmission = 1.0f;
+    pane.roughness = 0.0f;
+    pane.metallic = 0.0f;
+    add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, pane));
     return scene;
 }
 

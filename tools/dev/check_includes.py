@@ -25,6 +25,7 @@ ROOMS = {
     "image": "core",
     "color": "core",
     "scene": "core",
+    "accelerator": "scene core",
     "loader": "scene image core",
     "bsdf": "sampling core",
     "medium": "sampling core",
@@ -32,7 +33,7 @@ ROOMS = {
     "oiio": "texture image core",
     "light": "texture sampling core",
     "camera": "sampling core",
-    "world": "scene bsdf medium light camera texture image color sampling core",
+    "world": "accelerator scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
     "transport": "world scene bsdf medium light camera sampling core",
     "wave": "transport world scene lightpath film bsdf medium light camera sampling core",
@@ -51,7 +52,7 @@ ROOMS = {
     "farm": "batch session process picture render processor film scene color core",
     "compare": "session process picture report metrics output render processor integrator film world texture color image "
     "loader core",
-    "profile": "session process picture report render integrator wave world scene core",
+    "profile": "session process picture report render integrator wave world accelerator scene core",
     "cli": "profile compare farm batch session process picture denoise report metrics output render processor film world "
     "color image loader core",
 }

@@ -1,0 +1,78 @@
+// The accelerators of accelerator/ over the surfaces of a World, asked as Embree is.
+#pragma once
+
+#include "accelerator/accelerator.h"
+#include "core/ray.h"
+#include "world/hit.h"
+#include "world/world_data.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// Says how the hits of an accelerator and of Embree compare.
+struct HitAgreement {
+    std::uint64_t rays = 0;
+    std::uint64_t ties = 0;      ///< rays that met different triangles, as far away but for rounding
+    std::uint64_t differ = 0;    ///< rays that differ more than that
+    double largest_error = 0.0;  ///< of distances to one and the same triangle, relative to the scene
+
+    void add(const HitAgreement& other);
+};
+
+/// Holds all triangles of a World in world space, instances as often as they are placed, with an accelerator over them.
+/// Partly transparent surfaces, panes, and what is hidden from the camera let the same rays pass as in Embree.
+class AcceleratedScene {
+  public:
+    /// Limits the triangles, which take 48 bytes each here.
+    static constexpr std::size_t kMostTriangles = std::size_t{1} << 24;
+
+    /// Builds `kind`, any but Embree, over `data`, which has to stay where it is. Throws SceneError if something moves
+    /// while the shutter is open, or if there are more than `kMostTriangles`.
+    AcceleratedScene(const WorldData& data, AcceleratorKind kind);
+
+    /// Returns the nearest hit of a ray.
+    [[nodiscard]] Hit closest(const Ray& ray, RayEnds ends, RayWork& work) const;
+    [[nodiscard]] Hit closest(const Ray& ray, RayEnds ends) const {
+        RayWork ignored;
+        return closest(ray, ends, ignored);
+    }
+    /// Answers as `SceneGeometry::occluded` does.
+    [[nodiscard]] std::uint8_t occlusion(const Ray& ray, RayEnds ends, RayWork& work) const;
+    [[nodiscard]] std::uint8_t occlusion(const Ray& ray, RayEnds ends) const {
+        RayWork ignored;
+        return occlusion(ray, ends, ignored);
+    }
+
+    /// Returns the seconds that the accelerator takes to trace `rays`, and adds what they have it do to `work`;
+    /// `occlusion`: whether they only ask if something is in the way.
+    [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, RayWork& work) const;
+    /// Compares the answers to `rays` with Embree's.
+    [[nodiscard]] HitAgreement compare_with_embree(std::span<const Ray> rays, bool occlusion) const;
+
+    [[nodiscard]] AcceleratorStatistics statistics() const { return accelerator_->statistics(); }
+    [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+
+  private:
+    /// Says which triangle of the World one is.
+    struct Identity {
+        std::uint32_t instance;
+        std::uint32_t geometry;
+        std::uint32_t triangle;
+    };
+    class Filter;
+
+    [[nodiscard]] Hit make_hit(const TriangleHit& hit, float time) const;
+
+    const WorldData& data_;
+    std::vector<Triangle> triangles_;
+    std::vector<Identity> identities_;  ///< of each triangle
+    bool has_filters_ = false;          ///< some surface lets some rays pass
+    std::unique_ptr<const Accelerator> accelerator_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,164 @@
+// The structures of accelerator/ against Embree: on scenes of the tree, on instances, and on what lets rays pass.
+#include "world/accelerated_scene.h"
+
+#include "core/position_error.h"
+#include "loader/loader.h"
+#include "world/test_scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr AcceleratorKind kStructures[] = {AcceleratorKind::Bvh, AcceleratorKind::BvhMiddle, AcceleratorKind::BvhCounts,
+                                           AcceleratorKind::KdTree, AcceleratorKind::Grid};
+
+/// Makes rays from inside and outside of the scene, and from what those hit on to any direction, as paths go on.
+std::vector<Ray> traced_rays(const World& world, std::size_t count) {
+    Random random(9);
+    const Bounds& bounds = world.geometry().bounds();
+    std::vector<Ray> rays(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Ray& ray = rays[i];
+        ray.alpha_key = static_cast<std::uint32_t>(random.next() * 0x1p24f) * 2654435761u;
+        const Hit hit = i % 4 == 0 ? Hit{} : intersect(world, rays[i - 1]);
+        ray.direction = random_direction(random);
+        if (hit.valid()) {
+            const SurfacePoint point = world.geometry().surface_point(hit);
+            ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
+        } else {
+            ray.origin =
+                bounds.center() + random_direction(random) * (world.geometry().bounding_radius() * random.next());
+        }
+    }
+    return rays;
+}
+
+/// Fails unless `kind` meets what Embree meets.
+void expect_agreement(const World& world, std::span<const Ray> rays, AcceleratorKind kind) {
+    const auto scene = world.geometry().accelerate(kind);
+    for (const bool occlusion : {false, true}) {
+        const HitAgreement agreement = scene->compare_with_embree(rays, occlusion);
+        EXPECT_EQ(agreement.differ, 0u) << accelerator_name(kind) << (occlusion ? ", occlusion" : ", nearest");
+        EXPECT_LE(agreement.ties, rays.size() / 50) << accelerator_name(kind);
+        EXPECT_LT(agreement.largest_error, 2.0 * static_cast<double>(kPositionError)) << accelerator_name(kind);
+    }
+}
+
+class AcceleratedSceneOfTheTree : public testing::TestWithParam<const char*> {};
+
+TEST_P(AcceleratedSceneOfTheTree, IsMetWhereEmbreeMeetsIt) {
+    const World world = compile(load_scene(std::string(ETENDUE_SOURCE_DIR) + "/scenes/" + GetParam()).scene);
+    const std::vector<Ray> rays = traced_rays(world, 3000);
+    for (const AcceleratorKind kind : kStructures) expect_agreement(world, rays, kind);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AcceleratedSceneOfTheTree,
+                         testing::Values("cornell-box", "furnace", "caustic-prism", "diamond"));
+
+/// Makes instances, plain and mirrored, of surfaces of which some let rays pass.
+SceneDesc passing_scene() {
+    Random random(11);
+    SceneDesc scene = empty_scene();
+    MaterialDesc half = diffuse(Rgb(0.5f));
+    half.alpha_mode = AlphaMode::Blend;
+    half.base_alpha = 0.5f;
+    MaterialDesc hidden = diffuse(Rgb(0.5f));
+    hidden.visible_to_camera = false;
+    const Handle<MaterialDesc> materials[] = {add_material(scene, diffuse(Rgb(0.5f))), add_material(scene, half),
+                                              add_material(scene, hidden)};
+    for (const Handle<MaterialDesc> material : materials) {
+        PrimitiveDesc primitive = soup(random, 40, 0.4f);
+        primitive.material = material;
+        const Handle<MeshDesc> mesh = add_mesh(scene, {primitive});
+        place(scene, mesh);
+        place(scene, mesh, random_transform(random, true));
+    }
+    return scene;
+}
+
+TEST(AcceleratedScene, LetsPassWhatEmbreeLetsPass) {
+    const World world = compile(passing_scene());
+    const std::vector<Ray> rays = traced_rays(world, 4000);
+    for (const AcceleratorKind kind : kStructures) expect_agreement(world, rays, kind);
+    expect_agreement(world, rays, AcceleratorKind::BruteForce);
+}
+
+/// Fails unless a World that is asked through `kind` answers as one with Embree does.
+void expect_the_same_answers(SceneDesc scene, AcceleratorKind kind, std::span<const Ray> rays, RayEnds ends) {
+    SceneDesc other = scene;
+    other.settings.accelerator = kind;
+    const World embree = compile(std::move(scene));
+    const World world = compile(std::move(other));
+    std::vector<Hit> expected(rays.size()), hits(rays.size());
+    std::vector<std::uint8_t> free(rays.size()), expected_free(rays.size());
+    embree.geometry().intersect(rays, expected, Coherence::Incoherent, QueryForm::Best, ends);
+    world.geometry().intersect(rays, hits, Coherence::Incoherent, QueryForm::Best, ends);
+    embree.geometry().occluded(rays, expected_free, QueryForm::Best, ends);
+    world.geometry().occluded(rays, free, QueryForm::Best, ends);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        SCOPED_TRACE(testing::Message() << accelerator_name(kind) << ", ray " << i);
+        ASSERT_EQ(hits[i].instance, expected[i].instance);
+        ASSERT_EQ(hits[i].triangle, expected[i].triangle);
+        ASSERT_NEAR(hits[i].t, expected[i].t, 1e-5f);
+        ASSERT_NEAR(hits[i].u, expected[i].u, 1e-3f);
+        ASSERT_EQ(free[i], expected_free[i]);
+    }
+}
+
+TEST(AcceleratedScene, IsWhatAWorldIsAskedThroughIfTheSettingsSaySo) {
+    const std::vector<Ray> rays = traced_rays(compile(passing_scene()), 500);
+    for (const RayEnds ends : {RayEnds::InScene, RayEnds::AtCamera}) {
+        expect_the_same_answers(passing_scene(), AcceleratorKind::Grid, rays, ends);
+        expect_the_same_answers(passing_scene(), AcceleratorKind::BruteForce, rays, ends);
+    }
+}
+
+TEST(AcceleratedScene, SaysThatShadowRaysPassPanes) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc pane;
+    pane.base_color = Rgb(1.0f);
+    pane.transmission = 1.0f;
+    pane.roughness = 0.0f;
+    pane.metallic = 0.0f;
+    add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, pane));
+    add_object(scene, quad({0, 0, -2}, {0.5f, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    const std::vector<Ray> rays{{.origin = {0.7f, 0, 0}, .direction = {0, 0, -1}},
+                                {.origin = {0.2f, 0, 0}, .direction = {0, 0, -1}},
+                                {.origin = {1.2f, 0, 0}, .direction = {0, 0, -1}}};
+    const World world = compile(SceneDesc(scene));
+    std::vector<std::uint8_t> embree(rays.size());
+    world.geometry().occluded(rays, embree);
+    ASSERT_EQ(embree, (std::vector<std::uint8_t>{kPassesPanes, kOccluded, kFree}));
+    for (const AcceleratorKind kind : kStructures) expect_the_same_answers(scene, kind, rays, RayEnds::InScene);
+}
+
+TEST(AcceleratedScene, RefusesWhatMoves) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    scene.instances[0].motion = {translation({0, 0, 0}), translation({1, 0, 0})};
+    scene.settings.accelerator = AcceleratorKind::KdTree;
+    try {
+        (void)compile(std::move(scene));
+        FAIL() << "it is built over something that moves";
+    } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("something moves"), std::string::npos) << error.what();
+    }
+}
+
+TEST(AcceleratedScene, OfAnEmptyWorldIsMissed) {
+    const World world = compile(empty_scene());
+    for (const AcceleratorKind kind : kStructures)
+        EXPECT_FALSE(world.geometry().accelerate(kind)->closest(Ray{}, RayEnds::InScene).valid());
+}
+
+}  // namespace
+
+}  // namespace etendue::test
