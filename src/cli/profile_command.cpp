@@ -232,23 +232,13 @@ void note_disagreeing_repetitions(ProfileReport& report) {
         if (const std::string note = disagreement_of_repetitions(run); !note.empty()) report.notes.push_back(note);
 }
 
-/// Throws SceneError if the runs that `report` is to have cannot be compared.
-void require_comparable(const ProfileBaseline& baseline, const std::string& file, const ProfileReport& report,
-                        const ProfileArguments& arguments, const std::vector<int>& threads) {
-    ProfileReport planned = report;
-    for (const std::string& integrator : arguments.integrators)
-        for (const int count : threads) planned.runs.push_back({.integrator = integrator, .threads = count});
-    const std::string refusal = refusal_to_compare(baseline, planned);
-    if (!refusal.empty()) throw SceneError({file, {}}, refusal);
-}
-
 /// Reads earlier profiles, the oldest first. Throws SceneError for one of other work.
-std::vector<EarlierProfile> read_history(const std::vector<std::string>& files, const ProfileReport& now,
-                                         const ProfileArguments& arguments, const std::vector<int>& threads) {
+std::vector<EarlierProfile> read_history(const std::vector<std::string>& files, const ProfileReport& now) {
     std::vector<EarlierProfile> history;
     for (const std::string& file : files) {
         const ProfileBaseline profile = parse_profile(read_text(file), file);
-        require_comparable(profile, file, now, arguments, threads);
+        if (const std::string difference = difference_of_work(profile, now); !difference.empty())
+            throw SceneError({file, {}}, difference);
         EarlierProfile& entry = history.emplace_back(EarlierProfile{file, profile.created, profile.program, {}});
         for (const ProfileRun& run : profile.runs)
             entry.runs.push_back({run.integrator, run.threads, cpu_seconds_per_sample(run)});
@@ -300,6 +290,16 @@ void write_costs(const std::filesystem::path& directory, const PixelRect& window
     images[heat_map_key(*most_threads)] = encode_png(picture);
 }
 
+/// Throws SceneError if the runs that `report` is to have cannot be compared.
+void require_comparable(const ProfileBaseline& baseline, const ProfileReport& report, const ProfileArguments& arguments,
+                        const std::vector<int>& threads) {
+    ProfileReport planned = report;
+    for (const std::string& integrator : arguments.integrators)
+        for (const int count : threads) planned.runs.push_back({.integrator = integrator, .threads = count});
+    const std::string refusal = refusal_to_compare(baseline, planned);
+    if (!refusal.empty()) throw SceneError({arguments.against, {}}, refusal);
+}
+
 /// Names of those of earlier profiles; none if there is no such directory.
 std::vector<std::string> heat_maps_in(const std::filesystem::path& directory) {
     const auto is_number = [](std::string_view text) {
@@ -330,8 +330,8 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     const ThreadPool all(std::ranges::max(threads));
     const LoadedScene loaded(arguments, colors, all, report);
     describe(report, arguments, loaded.settings, *loaded.world);
-    if (baseline) require_comparable(*baseline, arguments.against, report, arguments, threads);
-    report.history = read_history(arguments.history, report, arguments, threads);
+    if (baseline) require_comparable(*baseline, report, arguments, threads);
+    report.history = read_history(arguments.history, report);
     const std::filesystem::path directory = arguments.output;
     std::vector<std::string> names{kData, "trace.json", "index.html", "profile.csv"};
     for (const std::string& name : heat_maps_in(directory)) names.push_back(name);

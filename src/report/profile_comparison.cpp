@@ -72,20 +72,6 @@ std::string difference_of_settings(const std::map<std::string, std::string>& bef
     return {};
 }
 
-std::string difference_of_work(const ProfileReport& before, const ProfileReport& now) {
-    if (before.scene != now.scene)
-        return fmt::format("the baseline is of the scene '{}', not of '{}'", before.scene, now.scene);
-    if (before.width != now.width || before.height != now.height)
-        return fmt::format("the baseline has {} x {} pixels, not {} x {}", before.width, before.height, now.width,
-                           now.height);
-    if (before.max_depth != now.max_depth)
-        return fmt::format("paths of the baseline have up to {} edges, not {}", before.max_depth, now.max_depth);
-    if (before.bvh.instanced_triangles != now.bvh.instanced_triangles)
-        return fmt::format("the scene has changed: the baseline's has {} triangles, not {}",
-                           before.bvh.instanced_triangles, now.bvh.instanced_triangles);
-    return difference_of_settings(before.settings, now.settings);
-}
-
 void note_difference(std::vector<std::string>& notes, const char* what, const std::string& before,
                      const std::string& now) {
     if (before != now) notes.push_back(fmt::format("{}: '{}' before, '{}' now", what, before, now));
@@ -141,6 +127,20 @@ std::vector<ComparedFigure> figures(const ProfileReport& before, const ProfileRe
 }
 
 }  // namespace
+
+std::string difference_of_work(const ProfileReport& before, const ProfileReport& now) {
+    if (before.scene != now.scene)
+        return fmt::format("the baseline is of the scene '{}', not of '{}'", before.scene, now.scene);
+    if (before.width != now.width || before.height != now.height)
+        return fmt::format("the baseline has {} x {} pixels, not {} x {}", before.width, before.height, now.width,
+                           now.height);
+    if (before.max_depth != now.max_depth)
+        return fmt::format("paths of the baseline have up to {} edges, not {}", before.max_depth, now.max_depth);
+    if (before.bvh.instanced_triangles != now.bvh.instanced_triangles)
+        return fmt::format("the scene has changed: the baseline's has {} triangles, not {}",
+                           before.bvh.instanced_triangles, now.bvh.instanced_triangles);
+    return difference_of_settings(before.settings, now.settings);
+}
 
 const char* verdict_name(ProfileVerdict verdict) {
     switch (verdict) {

@@ -114,7 +114,7 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     const json trace = json::parse(read_file(work_ / "out/trace.json"));
     EXPECT_FALSE(trace["traceEvents"].empty());
     const ChannelImage heat = read_channels(work_ / "out/heat-path-2.exr");
-    EXPECT_EQ(heat.channel_names, (Names{"rays", "cpu_seconds"}));
+    EXPECT_EQ(heat.channel_names, (Names{"cpu_seconds", "rays"}));
     EXPECT_EQ(heat.pixels.width, 16);
     EXPECT_EQ(heat.pixels.height, 12);
     for (const float value : heat.pixels.pixels) EXPECT_GT(value, 0.0f);
