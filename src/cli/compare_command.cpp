@@ -3,6 +3,8 @@
 #include "cli/commands.h"
 #include "cli/settings_options.h"
 #include "cli/variant_options.h"
+#include "compare/comparison_classes.h"
+#include "compare/comparison_files.h"
 #include "compare/comparison_images.h"
 #include "compare/comparison_measures.h"
 #include "compare/comparison_reference.h"
@@ -28,6 +30,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -42,22 +45,30 @@ namespace {
 constexpr double kDefaultSeconds = 10.0;
 constexpr int kDefaultSeeds = 4;
 constexpr int kDefaultStrategies = 5;  // edges
-constexpr std::array kLetters{'a', 'b', 'c', 'd', 'e', 'f'};
+
+/// A variant on the command line: "power: --heuristic power".
+struct NamedOptions {
+    std::string name;
+    std::string options;
+};
 
 struct CompareArguments {
     std::string scene;
     std::string output;
     std::vector<std::string> integrators;
-    std::array<std::optional<std::string>, kLetters.size()> variants;
+    std::vector<NamedOptions> variants;
     RenderRequest common;  ///< of all variants
     std::string command;   ///< this comparison's
     std::optional<double> seconds;
+    bool by_wall = false;
     int seeds = kDefaultSeeds;
     std::string reference;
     std::string reference_integrator;
     std::optional<double> reference_seconds;
     std::vector<NamedRegion> regions;
-    int longest_strategy = kDefaultStrategies;
+    std::vector<std::string> inset_classes;
+    std::optional<int> longest_strategy;
+    bool keep_images = false;
     int threads = 0;
     bool quiet = false;
     bool json = false;
@@ -72,6 +83,22 @@ NamedRegion parse_region(const std::string& text) {
     return {text.substr(0, colon), {window[0], window[1], window[2], window[3]}, false};
 }
 
+NamedOptions parse_variant(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto trimmed = [](const std::string& part) {
+        const std::size_t first = part.find_first_not_of(' ');
+        return first == std::string::npos ? "" : part.substr(first, part.find_last_not_of(' ') - first + 1);
+    };
+    NamedOptions variant{trimmed(text.substr(0, colon)),
+                         colon == std::string::npos ? "" : trimmed(text.substr(colon + 1))};
+    if (colon == std::string::npos || variant.name.empty() || variant.name.starts_with('-'))
+        throw CLI::ValidationError(
+            "--variant", fmt::format("'{}' is not NAME: OPTIONS, such as 'power: --heuristic power'; a set of "
+                                     "materials is chosen there, as in 'red: --variant red'",
+                                     text));
+    return variant;
+}
+
 /// Throws a validation error for `option` if `names` has a name twice, because what has one name could not be told
 /// apart.
 void require_different(const std::string& option, const std::vector<std::string>& names) {
@@ -82,22 +109,27 @@ void require_different(const std::string& option, const std::vector<std::string>
 
 std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) {
     std::vector<VariantRequest> requests;
-    for (std::size_t i = 0; i < kLetters.size(); ++i)
-        if (arguments.variants[i])
-            requests.push_back(
-                {fmt::format("{}: {}", kLetters[i], *arguments.variants[i]), *arguments.variants[i], {}});
-    const bool chooses = requests.empty() && arguments.integrators.empty();
+    const bool chooses = arguments.variants.empty() && arguments.integrators.empty();
     const std::vector<std::string> usual{"path", "bdpt", "vcm"};
-    if (requests.empty())
-        for (const std::string& name : chooses ? usual : arguments.integrators)
-            requests.push_back({name, "--integrator " + name, {}, chooses && name == "vcm"});
+    for (const std::string& name : chooses ? usual : arguments.integrators)
+        requests.push_back({name, "--integrator " + name, {}, chooses && name == "vcm"});
+    for (const NamedOptions& variant : arguments.variants) requests.push_back({variant.name, variant.options, {}});
     for (VariantRequest& request : requests) request.request = with_options(arguments.common, request.options);
     return requests;
 }
 
-RenderBudget budget_of(const CompareArguments& arguments) {
+RenderBudget budget_of(const CompareArguments& arguments, const ThreadPool& threads) {
     if (const auto spp = arguments.common.overrides.spp()) return {.spp = *spp};
-    return {.seconds = arguments.seconds.value_or(kDefaultSeconds)};
+    const double seconds = arguments.seconds.value_or(kDefaultSeconds);
+    // What all threads would take if they had the machine to themselves.
+    return {.seconds = arguments.by_wall ? seconds : seconds * threads.thread_count(), .by_wall = arguments.by_wall};
+}
+
+std::vector<std::string> file_names(const CompareArguments& arguments) {
+    std::vector<std::string> names{"report.json", "index.html"};
+    for (const std::string& name : names_of_data_files()) names.push_back(name);
+    if (arguments.reference.empty()) names.emplace_back(kReferenceFile);
+    return names;
 }
 
 ComparisonReport start_report(const CompareArguments& arguments, const Variant& variant, const RendersRequest& request,
@@ -120,6 +152,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
     report.threads = threads.thread_count();
     report.isa = variant.world->statistics().isa;
     report.libraries = library_versions();
+    report.by_wall = arguments.by_wall;
     report.seconds = request.budget.seconds;
     report.spp = request.budget.spp;
     report.seeds = static_cast<int>(rounds);
@@ -129,14 +162,15 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
 
 /// A reference that is asked for: what can be known of it before anything is rendered.
 struct RequestedReference {
-    std::optional<ImageF> image{};     ///< of the file
-    std::optional<Variant> variant{};  ///< that renders it
-    double seconds = 0.0;              ///< that it renders for
+    std::optional<ImageF> image{};         ///< of the file
+    std::optional<PooledOrigin> origin{};  ///< of a file that another comparison has pooled
+    std::optional<Variant> variant{};      ///< that renders it
+    double seconds = 0.0;                  ///< that it renders for
     std::vector<std::string> notes{};
 };
 
 RequestedReference requested_reference(const CompareArguments& arguments, const std::vector<Variant>& variants,
-                                       const RenderBudget& budget, const ColorConfig& colors) {
+                                       const ColorConfig& colors) {
     RequestedReference requested;
     const Variant& first = variants.front();
     if (!arguments.reference.empty()) {
@@ -145,9 +179,10 @@ RequestedReference requested_reference(const CompareArguments& arguments, const 
                                                   sampling.window, first.settings.color.working_space, colors);
         requested.image = std::move(file.pixels);
         requested.notes = std::move(file.warnings);
+        requested.origin = read_pooled_origin(arguments.reference);
     } else if (!arguments.reference_integrator.empty()) {
         requested.variant = with_integrator(first, arguments.reference_integrator);
-        requested.seconds = arguments.reference_seconds.value_or(10.0 * budget.seconds.value_or(kDefaultSeconds));
+        requested.seconds = arguments.reference_seconds.value_or(10.0 * arguments.seconds.value_or(kDefaultSeconds));
         requested.notes = reference_notes(*requested.variant, variants);
     }
     return requested;
@@ -160,7 +195,10 @@ std::optional<Reference> find_reference(const CompareArguments& arguments, Reque
                                         ComparisonReport& report) {
     if (requested.image)
         return Reference(std::move(*requested.image),
-                         {.kind = "file", .text = fmt::format("The file {}.", arguments.reference)});
+                         {.kind = "file",
+                          .text = fmt::format("The file {}{}.", arguments.reference,
+                                              requested.origin ? ", which another comparison has pooled" : ""),
+                          .noise_rel_mse = requested.origin ? requested.origin->noise_rel_mse : kUnknown});
     if (!requested.variant) return pool_reference(variants, images, report.pairs, report.notes);
     auto image = render_reference(*requested.variant, requested.seconds, seed, threads, arguments.quiet);
     if (!image) {
@@ -174,6 +212,47 @@ std::optional<Reference> find_reference(const CompareArguments& arguments, Reque
                                                              requested.variant->name, requested.seconds, seed)});
 }
 
+/// Writes what there is besides report and page, in place of what an earlier comparison has left.
+void write_files(const CompareArguments& arguments, const ComparisonReport& report,
+                 const std::optional<Reference>& reference, const std::vector<FinishedImages>& images,
+                 const ColorConfig& colors) {
+    const std::filesystem::path directory = arguments.output;
+    write_data_files(directory, report);
+    if (arguments.keep_images) write_renders(directory / kImagesDirectory, report, images, colors);
+    if (!arguments.reference.empty()) return;
+    if (reference) {
+        write_reference(directory / kReferenceFile, *reference, report, colors);
+    } else {
+        std::error_code ignored;  // it may never have been there
+        std::filesystem::remove(directory / kReferenceFile, ignored);
+    }
+}
+
+/// Returns the variant whose strategies are shown; null if none has any.
+const Variant* first_with_strategies(const std::vector<Variant>& variants) {
+    const auto found = std::ranges::find_if(
+        variants, [](const Variant& variant) { return has_strategies(variant.settings.integrator.type); });
+    return found == variants.end() ? nullptr : &*found;
+}
+
+/// Returns the regions of --insets, by the variant that finds most kinds of light: one with strategies, or the first.
+std::vector<NamedRegion> class_regions(const CompareArguments& arguments, const std::vector<VariantRequest>& requests,
+                                       const std::vector<Variant>& variants, const MeasureContext& context,
+                                       std::vector<std::string>& notes) {
+    if (arguments.inset_classes.empty()) return {};
+    const Variant* const with_strategies = first_with_strategies(variants);
+    const Variant& variant = with_strategies != nullptr ? *with_strategies : variants.front();
+    const auto request = std::ranges::find(requests, variant.name, &VariantRequest::name);
+    return regions_of_classes(arguments.scene, *request, variant, arguments.inset_classes, context, notes);
+}
+
+/// Throws SceneError if options that were given would change nothing.
+void require_effective(const CompareArguments& arguments, const std::vector<Variant>& variants) {
+    if (arguments.longest_strategy.value_or(0) > 0 && first_with_strategies(variants) == nullptr)
+        throw SceneError({"--strategies-depth", {}},
+                         "no variant has strategies to be shown: they are those of bdpt and vcm");
+}
+
 void require_regions_within(const std::vector<NamedRegion>& regions, const PixelRect& window) {
     for (const NamedRegion& region : regions)
         if (intersection(region.pixels, window) != region.pixels)
@@ -182,26 +261,50 @@ void require_regions_within(const std::vector<NamedRegion>& regions, const Pixel
                                          region.name, window.x0, window.y0, window.x1, window.y1));
 }
 
+/// Returns the seed of the first render. Renders that have a part in their own reference would look better than they
+/// are: seeds go on after those of a reference that another comparison has pooled, unless --seed was given.
+std::uint32_t first_seed(const CompareArguments& arguments, const std::vector<Variant>& variants,
+                         RequestedReference& requested) {
+    const std::uint32_t first = variants.front().settings.seed;
+    if (!requested.origin) return first;
+    const SeedRange& taken = requested.origin->seeds;
+    const std::uint32_t count =
+        static_cast<std::uint32_t>(arguments.seeds) * static_cast<std::uint32_t>(variants.size());
+    // Differences of unsigned numbers, as seeds go on with 0 after the last.
+    if (first - taken.first >= taken.count && taken.first - first >= count) return first;
+    const bool is_given =
+        std::ranges::any_of(arguments.common.given, [](const GivenOption& option) { return option.name == "--seed"; });
+    const std::uint32_t after = taken.first + taken.count;
+    requested.notes.push_back(
+        is_given ? fmt::format("the reference was pooled from renders with some of the same seeds, so that errors are "
+                               "too small; --seed {} has others",
+                               after)
+                 : fmt::format("seeds begin with {}, after those of the reference", after));
+    return is_given ? first : after;
+}
+
 ExitCode run_compare(const CompareArguments& arguments) {
     const ThreadPool threads(arguments.threads);
     const ColorConfig colors = ColorConfig::from_environment();
-    const std::vector<Variant> variants =
-        make_variants(arguments.scene, variant_requests(arguments), colors, threads, arguments.quiet);
+    const std::vector<VariantRequest> requests = variant_requests(arguments);
+    const std::vector<Variant> variants = make_variants(arguments.scene, requests, colors, threads, arguments.quiet);
     const PixelRect& window = variants.front().sampling.window;
     require_regions_within(arguments.regions, window);
-    const RendersRequest request{.budget = budget_of(arguments),
+    require_effective(arguments, variants);
+    RequestedReference requested = requested_reference(arguments, variants, colors);
+    const RendersRequest request{.budget = budget_of(arguments, threads),
                                  .seeds = arguments.seeds,
-                                 .first_seed = variants.front().settings.seed,
+                                 .first_seed = first_seed(arguments, variants, requested),
                                  .quiet = arguments.quiet};
-    RequestedReference requested = requested_reference(arguments, variants, request.budget, colors);
     if (!arguments.quiet)
         for (const std::string& note : requested.notes) log_warning("note: {}", note);
     std::vector<std::filesystem::path> inputs;
     if (!arguments.reference.empty()) inputs.emplace_back(arguments.reference);
     for (const Variant& variant : variants) inputs.insert(inputs.end(), variant.inputs.begin(), variant.inputs.end());
-    const std::vector<std::filesystem::path> files =
-        prepare_directory(arguments.output, {"report.json", "index.html"}, inputs);
+    const std::vector<std::filesystem::path> files = prepare_directory(arguments.output, file_names(arguments), inputs);
     ImageStore store(arguments.output, window.width(), window.height(), 3);
+    const MeasureContext context{colors, threads, store};
+    const std::vector<NamedRegion> of_classes = class_regions(arguments, requests, variants, context, requested.notes);
     const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
     const std::size_t rounds = renders.front().seeds.size();
     if (rounds == 0) return interrupt_exit_code();
@@ -211,7 +314,6 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const std::size_t notes_said = report.notes.size();
     if (report.seeds < arguments.seeds)
         report.notes.push_back(fmt::format("interrupted after {} of {} seeds", report.seeds, arguments.seeds));
-    const MeasureContext context{colors, threads, store};
     const std::vector<FinishedImages> images = finished_images(renders, store);
     report.pairs = compare_pairs(variants, images);
     // The one after those of all renders.
@@ -220,9 +322,12 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const std::optional<Reference> reference =
         find_reference(arguments, std::move(requested), reference_seed, variants, images, threads, report);
     report.reference = reference ? reference->report() : ReferenceReport{.kind = "none", .text = "There is none."};
+    if (report.reference.kind == "pooled")
+        report.reference.seeds = {request.first_seed, static_cast<std::uint32_t>(rounds * variants.size())};
     const ErrorMaps maps = reference ? map_errors(images, *reference, report.working_space, context) : ErrorMaps{};
-    const std::vector<NamedRegion> regions =
-        arguments.regions.empty() ? find_regions(maps.rel_mse, window) : arguments.regions;
+    std::vector<NamedRegion> regions = arguments.regions;
+    regions.insert(regions.end(), of_classes.begin(), of_classes.end());
+    if (regions.empty()) regions = find_regions(maps.rel_mse, window);
     measure(report, variants, renders, images, reference, maps, regions, context);
     for (std::size_t v = 0; v < variants.size(); ++v) {
         VariantReport& variant = report.variants[v];
@@ -230,16 +335,18 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
+    if (const std::string note = unequal_times(report); !note.empty()) report.notes.push_back(note);
+
     // What was measured must not be lost with pictures that cannot be made.
     write_text(files[0], to_json(report));
+    write_files(arguments, report, reference, images, colors);
     const DisplayView view{report.working_space, report.display, report.view, report.look,
                            static_cast<float>(report.exposure)};
     ReportImages pictures;
     add_images(pictures, report, images, reference, maps, view, context);
-    const auto bdpt = std::ranges::find_if(
-        variants, [](const Variant& variant) { return has_strategies(variant.settings.integrator.type); });
-    if (bdpt != variants.end() && arguments.longest_strategy > 0)
-        add_strategies(pictures, report, *bdpt, arguments.longest_strategy, view, context, arguments.quiet);
+    const int longest_strategy = arguments.longest_strategy.value_or(kDefaultStrategies);
+    if (const Variant* const bdpt = first_with_strategies(variants); bdpt != nullptr && longest_strategy > 0)
+        add_strategies(pictures, report, *bdpt, longest_strategy, view, context, arguments.quiet);
 
     write_text(files[0], to_json(report));
     write_text(files[1], make_page(report, pictures));
@@ -264,14 +371,17 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
                            "Algorithms to compare, separated by commas (default: path,bdpt, and vcm where the "
                            "scene has mirrors or smooth glass)");
     integrators->delimiter(',')->allow_extra_args(false)->check(CLI::IsMember(integrator_setting_names()));
-    for (std::size_t i = 0; i < kLetters.size(); ++i)
-        command
-            .add_option(fmt::format("--variant-{}", kLetters[i]), arguments.variants[i],
-                        "Options of 'render' that make this variant, in quotes; in place of --integrators")
-            ->excludes(integrators);
-    command.add_option("--seconds", arguments.seconds, "Time of each render (default: 10)")
+    command
+        .add_option("--seconds", arguments.seconds,
+                    "Time of each render if all threads work for it alone: all variants get as much CPU time, that "
+                    "of so many seconds on all threads (default: 10)")
         ->check(real_range(1e-3, 1e9));
-    command.add_option("--seeds", arguments.seeds, "Independent renders of each variant (default: 4)")
+    command.add_flag("--wall", arguments.by_wall,
+                     "Compare by time on the clock in place of CPU time, as where variants leave threads idle");
+    command
+        .add_option("--seeds", arguments.seeds,
+                    "Independent renders of each variant, 3 or more without a reference; 1 shows images and times "
+                    "only (default: 4)")
         ->check(CLI::Range(1, 1000));
     auto* file = command.add_option("--reference", arguments.reference, "EXR or HDR file to measure errors against")
                      ->check(CLI::ExistingFile);
@@ -293,6 +403,15 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
             "most)")
         ->allow_extra_args(false);
     command
+        .add_option(
+            "--insets", arguments.inset_classes,
+            "Layers of light, such as caustics,diffuse_indirect, with commas: the part of the image in which each "
+            "is brightest is reported by itself (etendue render --help and docs/aovs.md have their names)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_flag("--keep-images", arguments.keep_images,
+                     "Write the image of every render to DIR/images, as EXR of 32-bit floats");
+    command
         .add_option("--strategies-depth", arguments.longest_strategy,
                     "Longest paths whose strategies are shown for bdpt (default: 5); 0 for none")
         ->check(CLI::Range(0, 12));
@@ -311,30 +430,52 @@ void add_compare_command(CLI::App& app, Action& action) {
     add_compare_options(*command, *arguments);
     const std::size_t own = command->get_options().size();
     add_settings_options(*command, arguments->common.overrides);
+    // Here it names what is compared; among the options of a variant it is what it is for 'render'.
+    command->remove_option(command->get_option("--variant"));
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--variant",
+            [arguments](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) arguments->variants.push_back(parse_variant(text));
+            },
+            "A variant to compare, 'NAME: OPTIONS' with options of 'render'; may be repeated, and goes with "
+            "--integrators")
+        ->allow_extra_args(false);
     hide_options(*command, options_compare_sets());
     command->footer(
         "Every variant is rendered as many times, each time with a seed that no other render has and for the same "
-        "time\n"
-        "unless --spp is given, and its error is measured on the way. Other options override render.json for all\n"
+        "CPU\n"
+        "time unless --spp is given, and its error is measured on the way. Other options override render.json for all\n"
         "variants. Exit code 1 if variants that show the same light and find all of it do not make the same image.\n\n"
         "Examples:\n"
         "  etendue compare scenes/caustic-glass -o report\n"
         "  etendue compare scenes/cornell-box --integrators path,bdpt,light --seconds 5 --seeds 8 -o report\n"
         "  etendue compare scenes/caustic-glass --region caustic:105,192,150,216 --reference glass.exr -o report\n"
-        "  etendue compare scenes/veach-mis --variant-a '--integrator path' --variant-b '--integrator path --max-depth "
-        "4' -o report");
+        "  etendue compare scenes/veach-mis --integrator bdpt --variant 'power: --heuristic power' --variant 'balance: "
+        "'"
+        " -o report");
     command->callback([arguments, command, own, &action] {
         const CompareArguments& given = *arguments;
         refuse_options(*command, options_compare_sets());
         if (given.common.overrides.spp() && given.seconds)
             throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
+        if (given.variants.empty() && command->count("--integrator") > 0)
+            throw CLI::ValidationError("--integrator", "--integrators names the algorithms that are compared");
+        if (given.seeds == 2 && given.reference.empty() && given.reference_integrator.empty())
+            throw CLI::ValidationError("--seeds",
+                                       "2 give no reference, which is pooled from 3 or more, and so no errors: give "
+                                       "--seeds 3, --reference or --reference-integrator");
         require_different("--integrators", given.integrators);
-        std::vector<std::string> regions;
+        std::vector<std::string> names = given.integrators;
+        for (const NamedOptions& variant : given.variants) names.push_back(variant.name);
+        require_different("--variant", names);
+        require_different("--insets", given.inset_classes);
+        std::vector<std::string> regions = given.inset_classes;
         for (const NamedRegion& region : given.regions) regions.push_back(region.name);
         require_different("--region", regions);
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
         arguments->command = command_line("etendue compare", given_options(all));
-        arguments->common.given = given_options(std::span(all).subspan(own));
+        arguments->common.given = without(given_options(std::span(all).subspan(own)), "--variant");
         action = [arguments] {
             try {
                 return run_compare(*arguments);

@@ -16,7 +16,9 @@
 #include "processor/ray_code.h"
 #include "profile/profile_runs.h"
 #include "render/progressive_render.h"
+#include "report/profile_advice.h"
 #include "report/profile_comparison.h"
+#include "report/profile_figures.h"
 #include "report/profile_report.h"
 #include "session/interrupt.h"
 #include "session/output_directory.h"
@@ -53,6 +55,8 @@ constexpr double kSecondsPerRun = 1.0;
 constexpr int kDefaultRepetitions = 5;
 constexpr const char* kData = "profile.json";
 
+constexpr const char* kNoImage = "here no image file is written";
+
 constexpr std::array kRefusedOptions{
     OptionOfRender{"--integrator", "here --integrators names those that are measured"},
     OptionOfRender{"--time", "here it is --seconds, for each repetition"},
@@ -66,8 +70,17 @@ constexpr std::array kRefusedOptions{
     OptionOfRender{"--aov", "here the image alone is measured"},
     OptionOfRender{"--aov-layout", "here the image alone is measured"},
     OptionOfRender{"--deep", "here the image alone is measured"},
-    OptionOfRender{"--half", "here no image file is written"},
-    OptionOfRender{"--float", "here no image file is written"}};
+    OptionOfRender{"--fps", "here --time-code names the moment, in seconds"},
+    OptionOfRender{"--exposure", kNoImage},
+    OptionOfRender{"--display", kNoImage},
+    OptionOfRender{"--view", kNoImage},
+    OptionOfRender{"--look", kNoImage},
+    OptionOfRender{"--exr-space", kNoImage},
+    OptionOfRender{"--aces-container", kNoImage},
+    OptionOfRender{"--owner", kNoImage},
+    OptionOfRender{"--comments", kNoImage},
+    OptionOfRender{"--half", kNoImage},
+    OptionOfRender{"--float", kNoImage}};
 
 struct ProfileArguments {
     std::string scene;
@@ -77,6 +90,7 @@ struct ProfileArguments {
     std::optional<double> seconds;
     int repetitions = kDefaultRepetitions;
     std::string against;
+    std::vector<std::string> history;
     double tolerance = ProfileComparisonOptions{}.tolerance;
     AcceleratorArguments accelerators;
     SettingsOverrides overrides;
@@ -133,6 +147,8 @@ class LoadedScene {
         settings = prepared.scene.settings;
         inputs = prepared.scene.inputs;
         if (!arguments.against.empty()) inputs.emplace_back(arguments.against);
+        inputs.insert(inputs.end(), arguments.history.begin(), arguments.history.end());
+        names = scene_names(prepared.scene);
         leave_out_unmeasured(settings, report.notes);
         report.scene = prepared.scene.name;
         const PhaseTimer timer;
@@ -150,7 +166,8 @@ class LoadedScene {
 
     RenderSettings settings;
     std::string working_space;
-    std::vector<std::filesystem::path> inputs;  ///< files that are read, the baseline among them
+    SceneNames names;
+    std::vector<std::filesystem::path> inputs;  ///< files that are read, earlier profiles among them
     std::unique_ptr<const World> world;
 };
 
@@ -213,6 +230,26 @@ void note_costly_stamps(ProfileReport& report) {
                             run.integrator, run.threads, 100.0 * run.timing_share));
 }
 
+void note_disagreeing_repetitions(ProfileReport& report) {
+    for (const ProfileRun& run : report.runs)
+        if (const std::string note = disagreement_of_repetitions(run); !note.empty()) report.notes.push_back(note);
+}
+
+/// Reads earlier profiles, the oldest first. Throws SceneError for one of other work.
+std::vector<EarlierProfile> read_history(const std::vector<std::string>& files, const ProfileReport& now) {
+    std::vector<EarlierProfile> history;
+    for (const std::string& file : files) {
+        const ProfileBaseline profile = parse_profile(read_text(file), file);
+        if (const std::string difference = difference_of_work(profile, now); !difference.empty())
+            throw SceneError({file, {}}, difference);
+        EarlierProfile& entry = history.emplace_back(EarlierProfile{file, profile.created, profile.program, {}});
+        for (const ProfileRun& run : profile.runs)
+            entry.runs.push_back({run.integrator, run.threads, cpu_seconds_per_sample(run)});
+    }
+    std::ranges::stable_sort(history, {}, &EarlierProfile::created);
+    return history;
+}
+
 void describe_memory(ProfileReport& report, const World& world, const ProfileRuns& runs) {
     const WorldStatistics of_world = world.statistics();
     const auto bytes = [](std::size_t value) { return static_cast<double>(value); };
@@ -249,7 +286,7 @@ void write_costs(const std::filesystem::path& directory, const PixelRect& window
     const auto most_threads = std::ranges::max_element(
         report.runs, {}, [&](const ProfileRun& run) { return run.integrator == costs.integrator ? run.threads : 0; });
     const std::filesystem::path stem = directory / heat_map_stem(costs.integrator, most_threads->threads);
-    write_image(stem.string() + ".exr", both, {.depth = PixelDepth::Float, .channel_names = {"rays", "seconds"}});
+    write_image(stem.string() + ".exr", both, {.depth = PixelDepth::Float, .channel_names = {"rays", "cpu_seconds"}});
     write_image(stem.string() + ".png", picture, {.depth = PixelDepth::UInt8});
     most_threads->heat_map = stem.filename().string() + ".exr";
     most_threads->heat_map_high = static_cast<double>(*high);
@@ -298,8 +335,9 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     describe(report, arguments, loaded.settings, *loaded.world);
     if (baseline) require_comparable(*baseline, report, arguments, threads);
     require_acceleratable(*loaded.world, accelerator_kinds(arguments.accelerators.names));
+    report.history = read_history(arguments.history, report);
     const std::filesystem::path directory = arguments.output;
-    std::vector<std::string> names{kData, "trace.json", "index.html"};
+    std::vector<std::string> names{kData, "trace.json", "index.html", "profile.csv"};
     for (const std::string& name : accelerator_pictures(arguments.accelerators)) names.push_back(name);
     for (const std::string& name : heat_maps_in(directory)) names.push_back(name);
     for (const std::string& integrator : arguments.integrators)
@@ -315,10 +353,11 @@ ExitCode run_profile(const ProfileArguments& arguments) {
                                  .spp = arguments.overrides.spp(),
                                  .repetitions = arguments.repetitions,
                                  .quiet = arguments.quiet};
-    ProfileRuns measured = measure_runs(*loaded.world, loaded.settings, request);
+    ProfileRuns measured = measure_runs(*loaded.world, loaded.names, loaded.settings, request);
     if (measured.interrupted) return interrupt_exit_code();
     report.runs = std::move(measured.runs);
     note_costly_stamps(report);
+    note_disagreeing_repetitions(report);
     describe_memory(report, *loaded.world, measured);
     if (baseline) report.against = compare_profiles(*baseline, report, {.tolerance = arguments.tolerance});
     ProfileImages images;
@@ -334,6 +373,7 @@ ExitCode run_profile(const ProfileArguments& arguments) {
         write_text(files[0], to_json(report));
         write_text(files[1], to_chrome_trace(report));
         write_text(files[2], make_profile_page(report, images));
+        write_text(files[3], to_csv(report));
     };
     // Those of runs that are made again are written anew.
     std::error_code ignored;  // one that stays is only one too many
@@ -363,7 +403,8 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
     add_scene_argument(command, arguments.scene);
     command
         .add_option("-o,--output", arguments.output,
-                    "Directory for profile.json, index.html, trace.json and heat maps; made if it is missing")
+                    "Directory for profile.json, profile.csv, index.html, trace.json and heat maps; made if it is "
+                    "missing")
         ->required()
         ->check(CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "it is empty" : ""); },
                                "DIR"));
@@ -396,6 +437,11 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         ->check(real_range(0.0, 10.0))
         ->needs(against);
     add_accelerator_options(command, arguments.accelerators);
+    command
+        .add_option("--history", arguments.history,
+                    "An earlier profile.json of the same work, to be shown with this one on the page; may be repeated")
+        ->allow_extra_args(false)
+        ->check(CLI::ExistingFile);
     command.add_flag("--quiet", arguments.quiet, "No progress, notes or tables; errors only");
     command.add_flag("--json", arguments.json, "Print profile.json on stdout in place of the tables");
 }

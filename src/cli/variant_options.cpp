@@ -16,15 +16,25 @@ constexpr std::array kOptionsForAll{
     OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'"},
     OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'"}};
 
+constexpr const char* kImagesOfCompare = "images that are kept have 32-bit floats in the working space";
+
 constexpr std::array kOptionsOfRender{OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
                                       OptionOfRender{"--error", "the errors of all variants are measured"},
                                       OptionOfRender{"--adaptive", "here all pixels get as many samples"},
                                       OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
                                       OptionOfRender{"--min-spp", "here all pixels get as many samples"},
                                       OptionOfRender{"--frames", "here --time-code names the moment"},
+                                      OptionOfRender{"--fps", "here --time-code names the moment, in seconds"},
                                       OptionOfRender{"--brightest", "here no sample is listed"},
-                                      OptionOfRender{"--half", "here no image file is written"},
-                                      OptionOfRender{"--float", "here no image file is written"}};
+                                      OptionOfRender{"--aov", "here the image alone is compared"},
+                                      OptionOfRender{"--aov-layout", "here the image alone is compared"},
+                                      OptionOfRender{"--deep", "here the image alone is compared"},
+                                      OptionOfRender{"--exr-space", kImagesOfCompare},
+                                      OptionOfRender{"--aces-container", kImagesOfCompare},
+                                      OptionOfRender{"--owner", kImagesOfCompare},
+                                      OptionOfRender{"--comments", kImagesOfCompare},
+                                      OptionOfRender{"--half", kImagesOfCompare},
+                                      OptionOfRender{"--float", kImagesOfCompare}};
 
 }  // namespace
 

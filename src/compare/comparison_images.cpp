@@ -9,8 +9,10 @@
 #include "session/progress_display.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,13 +59,59 @@ RenderOptions small_options(const Variant& variant) {
     return options;
 }
 
-double mean_luminance(const ImageF& rgba, const Rgb& weights) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 3 < rgba.pixels.size(); i += 4)
-        sum += static_cast<double>(rgba.pixels[i] * weights.r + rgba.pixels[i + 1] * weights.g +
-                                   rgba.pixels[i + 2] * weights.b);
-    const std::size_t pixels = rgba.pixels.size() / 4;
-    return sum / static_cast<double>(pixels);
+ImageF luminances(const ImageF& rgba, const Rgb& weights) {
+    ImageF result(rgba.width, rgba.height, 1);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] =
+            rgba.pixels[4 * i] * weights.r + rgba.pixels[4 * i + 1] * weights.g + rgba.pixels[4 * i + 2] * weights.b;
+    return result;
+}
+
+/// Returns the mean weight of the light in each pixel: what the weighted image has of the other; 0 where that is black.
+ImageF mean_weights(const ImageF& weighted, const ImageF& unweighted, const Rgb& weights) {
+    ImageF result = luminances(weighted, weights);
+    const ImageF whole = luminances(unweighted, weights);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] = whole.pixels[i] > 0.0f ? result.pixels[i] / whole.pixels[i] : 0.0f;
+    return result;
+}
+
+/// Fills in what the images, with weights and without, say of each strategy, and the exposure of each row: the one at
+/// which what is bright in the sum of its weighted images is as bright as in the sum of all.
+void describe_strategies(StrategiesReport& report, std::span<const StrategyImage> weighted,
+                         std::span<const StrategyImage> unweighted, const Rgb& weights) {
+    constexpr double kBright = 0.98;  // quantile of the pixels
+    constexpr double kMostStops = 16.0;
+    const ImageF& like = weighted.front().rgba;
+    std::map<int, ImageF> rows;
+    ImageF all(like.width, like.height, 1);
+    for (std::size_t i = 0; i < weighted.size(); ++i) {
+        const Strategy& strategy = weighted[i].strategy;
+        const int edges = strategy.s + strategy.t - 1;
+        ImageF& row = rows.try_emplace(edges, like.width, like.height, 1).first->second;
+        const ImageF own = luminances(weighted[i].rgba, weights);
+        for (std::size_t p = 0; p < own.pixels.size(); ++p) {
+            row.pixels[p] += own.pixels[p];
+            all.pixels[p] += own.pixels[p];
+        }
+        report.strategies.push_back({.s = strategy.s,
+                                     .t = strategy.t,
+                                     .weighted_mean = mean_of(own),
+                                     .unweighted_mean = mean_of(luminances(unweighted[i].rgba, weights))});
+    }
+    const double bright = quantile_of(all, kBright);
+    for (const auto& [edges, row] : rows) {
+        const double of_row = quantile_of(row, kBright);
+        const double stops = of_row > 0.0 && bright > 0.0 ? std::log2(bright / of_row) : 0.0;
+        report.rows.push_back({edges, std::clamp(std::round(2.0 * stops) / 2.0, 0.0, kMostStops)});
+        const double sum = mean_of(row);
+        for (StrategyReport& strategy : report.strategies) {
+            if (strategy.s + strategy.t - 1 != edges) continue;
+            if (sum > 0.0) strategy.share = strategy.weighted_mean / sum;
+            if (strategy.unweighted_mean > 0.0)
+                strategy.mean_weight = strategy.weighted_mean / strategy.unweighted_mean;
+        }
+    }
 }
 
 }  // namespace
@@ -110,25 +158,34 @@ bool add_strategies(ReportImages& images, ComparisonReport& report, const Varian
         return false;
     }
     const Rgb weights = context.colors.luminance_weights(report.working_space);
-    StrategiesReport result{.variant = variant.name, .spp = options.spp, .longest = longest};
-    for (const Strategy& strategy : wanted) result.strategies.push_back({.s = strategy.s, .t = strategy.t});
-    ReportImages made;
+    std::array<std::vector<StrategyImage>, 2> strategies;  // with weights and without
     for (const bool weighted : {true, false}) {
         integrator.weighted = weighted;
         const char* name = weighted ? "weighted" : "unweighted";
         ProgressDisplay display(fmt::format("{} strategies of {}", name, variant.name), quiet);
-        const std::vector<StrategyImage> strategies =
+        std::vector<StrategyImage>& rendered = strategies[weighted ? 0 : 1];
+        rendered =
             render_strategies(*variant.world, integrator, wanted, options, context.threads, interrupt_requested(),
                               [&](const RenderProgress& progress) { display.update(progress); });
-        if (strategies.size() < wanted.size()) return false;
-        for (std::size_t i = 0; i < strategies.size(); ++i) {
-            const ImageF& image = strategies[i].rgba;
-            made[fmt::format("strategy/{}/{},{}", name, wanted[i].s, wanted[i].t)] =
-                encode_png(display_image(image, view, context.colors));
-            (weighted ? result.strategies[i].weighted_mean : result.strategies[i].unweighted_mean) =
-                mean_luminance(image, weights);
-        }
+        if (rendered.size() < wanted.size()) return false;
     }
+    StrategiesReport result{.variant = variant.name, .spp = options.spp, .longest = longest};
+    describe_strategies(result, strategies[0], strategies[1], weights);
+    ReportImages made;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const int edges = wanted[i].s + wanted[i].t - 1;
+        DisplayView of_row = view;
+        of_row.exposure += static_cast<float>(std::ranges::find(result.rows, edges, &StrategyRow::edges)->exposure);
+        const auto key = [&](const char* kind) {
+            return fmt::format("strategy/{}/{},{}", kind, wanted[i].s, wanted[i].t);
+        };
+        const ImageF& weighted = strategies[0][i].rgba;
+        const ImageF& unweighted = strategies[1][i].rgba;
+        made[key("weighted")] = encode_png(display_image(weighted, of_row, context.colors));
+        made[key("unweighted")] = encode_png(display_image(unweighted, of_row, context.colors));
+        made[key("weights")] = encode_png(paint_magma(mean_weights(weighted, unweighted, weights), 1.0));
+    }
+    report.maps["strategy/weights"] = {0.0, 1.0};
     images.merge(made);
     report.strategies = std::move(result);
     return true;

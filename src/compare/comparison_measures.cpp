@@ -17,6 +17,7 @@ namespace etendue {
 namespace {
 
 constexpr const char* kRelMse = "relmse";
+constexpr const char* kTrimmed = "relmse-trimmed";
 constexpr const char* kFlip = "flip";
 constexpr std::size_t kFoundRegions = 3;
 
@@ -91,7 +92,6 @@ VariantReport describe(const Variant& variant, const VariantRenders& renders, co
     }
     report.variance = images.relative_variance;
     // Without any variance there is nothing to tell it by.
-    if (report.variance > 0.0) report.efficiency = 1.0 / (report.variance * report.seconds.mean());
     return report;
 }
 
@@ -102,8 +102,8 @@ void measure_convergence(VariantReport& report, const VariantRenders& renders, c
         ConvergenceStep step{.spp = renders.seeds.front().checkpoints[i].spp};
         for (std::size_t seed = 0; seed < renders.seeds.size(); ++seed) {
             const Snapshot& checkpoint = renders.seeds[seed].checkpoints[i];
-            step.seconds += checkpoint.seconds / static_cast<double>(renders.seeds.size());
-            step.cpu_seconds += checkpoint.cpu_seconds / static_cast<double>(renders.seeds.size());
+            step.seconds.values.push_back(checkpoint.seconds);
+            step.cpu_seconds.values.push_back(checkpoint.cpu_seconds);
             add(step.errors, compute_error_metrics(store.get(checkpoint.image), reference.of_round(seed)));
         }
         report.convergence.push_back(std::move(step));
@@ -111,18 +111,26 @@ void measure_convergence(VariantReport& report, const VariantRenders& renders, c
     report.errors = report.convergence.back().errors;
 }
 
-std::vector<ErrorAfter> errors_after(const VariantReport& report, const std::string& metric, bool of_seconds) {
+enum class Work { Samples, Seconds, CpuSeconds };
+
+std::vector<ErrorAfter> errors_after(const VariantReport& report, const std::string& metric, Work work) {
     std::vector<ErrorAfter> points;
     for (const ConvergenceStep& step : report.convergence)
-        points.push_back({of_seconds ? step.seconds : static_cast<double>(step.spp), step.errors.at(metric).mean()});
+        points.push_back({work == Work::Samples   ? static_cast<double>(step.spp)
+                          : work == Work::Seconds ? step.seconds.mean()
+                                                  : step.cpu_seconds.mean(),
+                          step.errors.at(metric).mean()});
     return points;
 }
 
 void fit_slopes(VariantReport& report) {
-    for (const auto& [metric, values] : report.errors)
-        if (report.convergence.front().errors.contains(metric))
-            report.slopes[metric] = {.spp = log_log_slope(errors_after(report, metric, false)).value_or(kUnknown),
-                                     .seconds = log_log_slope(errors_after(report, metric, true)).value_or(kUnknown)};
+    for (const auto& [metric, values] : report.errors) {
+        if (!report.convergence.front().errors.contains(metric)) continue;
+        const auto slope = [&, &name = metric](Work work) {
+            return log_log_slope(errors_after(report, name, work)).value_or(kUnknown);
+        };
+        report.slopes[metric] = {slope(Work::Samples), slope(Work::Seconds), slope(Work::CpuSeconds)};
+    }
 }
 
 /// HDR-FLIP with the same exposures for all images of a comparison.
@@ -146,20 +154,27 @@ void measure_flip(ComparisonReport& report, std::span<const FinishedImages> imag
     }
 }
 
-std::optional<ReachedError> time_to_reach(const VariantReport& one, const VariantReport& other) {
-    const auto reached = work_to_reach(errors_after(one, kRelMse, true), other.errors.at(kRelMse).mean());
+std::optional<ReachedError> time_to_reach(const VariantReport& one, const VariantReport& other, Work time) {
+    const auto reached = work_to_reach(errors_after(one, kRelMse, time), other.errors.at(kRelMse).mean());
     if (!reached) return std::nullopt;
     return ReachedError{reached->work, reached->extrapolated};
 }
 
-void fill_ratios(PairReport& pair, const VariantReport& a, const VariantReport& b) {
-    pair.ratios["rays_per_second"] = a.rays_per_second / b.rays_per_second;
-    pair.ratios["efficiency"] = a.efficiency / b.efficiency;
+void fill_ratios(PairReport& pair, const ComparisonReport& report, const VariantReport& a, const VariantReport& b) {
+    pair.ratios["rays_per_second"] = {.ratio = a.rays_per_second / b.rays_per_second};
+    pair.ratios["efficiency"] = {.ratio = a.efficiency / b.efficiency};
     if (a.errors.empty()) return;
-    for (const auto& [metric, values] : a.errors) pair.ratios[metric] = values.mean() / b.errors.at(metric).mean();
-    pair.ratios["relmse_seconds"] = pair.ratios[kRelMse] * a.seconds.mean() / b.seconds.mean();
-    pair.a_reaches_b = time_to_reach(a, b);
-    pair.b_reaches_a = time_to_reach(b, a);
+    for (const auto& [metric, values] : a.errors)
+        pair.ratios[metric] = ratio_interval(values.log_mean(), b.errors.at(metric).log_mean());
+    // All renders of a variant take the same samples: what their times scatter by is the machine's.
+    const double times = report.time_of(a).mean() / report.time_of(b).mean();
+    for (const char* metric : {kRelMse, kTrimmed}) {
+        const RatioInterval& errors = pair.ratios[metric];
+        pair.ratios[std::string(metric) + "_time"] = {errors.ratio * times, errors.low * times, errors.high * times};
+    }
+    const Work time = report.by_wall ? Work::Seconds : Work::CpuSeconds;
+    pair.a_reaches_b = time_to_reach(a, b, time);
+    pair.b_reaches_a = time_to_reach(b, a, time);
 }
 
 /// Means, and errors if there is a reference.
@@ -182,13 +197,47 @@ RegionReport measure_region(const NamedRegion& region, const ComparisonReport& r
                 variant.luminance.values.back() / luminance(mean_color(expected, pixels), weights) - 1.0);
             add(variant.errors, compute_error_metrics(image, expected, {.region = pixels}));
         }
-        if (reference) variant.rel_mse_seconds = variant.errors.at(kRelMse).mean() * report.variants[v].seconds.mean();
+        if (reference)
+            variant.rel_mse_time = variant.errors.at(kRelMse).mean() * report.time_of(report.variants[v]).mean();
         result.variants.push_back(std::move(variant));
     }
     return result;
 }
 
 }  // namespace
+
+void trim(ImageF& map) {
+    const auto dropped = static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(map.pixels.size()));
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < map.pixels.size(); ++i)
+        if (std::isfinite(map.pixels[i])) order.push_back(i);
+    if (dropped >= std::ssize(order)) return;
+    std::ranges::nth_element(order, order.begin() + dropped, std::ranges::greater{},
+                             [&](std::size_t i) { return map.pixels[i]; });
+    for (const std::size_t i : std::span(order).first(static_cast<std::size_t>(dropped))) map.pixels[i] = 0.0f;
+}
+
+std::vector<PixelRect> whole_blocks(const PixelRect& window) {
+    const int side = std::max(8, std::min(window.width(), window.height()) / 6);
+    std::vector<PixelRect> blocks;
+    for (int y = window.y0; y + side <= window.y1; y += side)
+        for (int x = window.x0; x + side <= window.x1; x += side) blocks.push_back({x, y, x + side, y + side});
+    return blocks;
+}
+
+std::string unequal_times(const ComparisonReport& report) {
+    constexpr double kMostRatio = 1.1;
+    if (!report.seconds || report.variants.empty()) return "";
+    const auto time = [&](const VariantReport& variant) { return report.time_of(variant).mean(); };
+    const auto [least, most] = std::ranges::minmax_element(report.variants, {}, time);
+    const double ratio = time(*most) / time(*least);
+    if (!(ratio > kMostRatio)) return "";
+    return fmt::format(
+        "times are not equal: '{}' took {:.3g} s of {} in the mean, '{}' {:.3g} s, {:.0f}% more; look at ratios of "
+        "relMSE x time, or give more --seconds",
+        least->name, time(*least), report.by_wall ? "time on the clock" : "CPU time", most->name, time(*most),
+        100.0 * (ratio - 1.0));
+}
 
 ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
                      const std::string& working_space, const MeasureContext& context) {
@@ -202,25 +251,23 @@ ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& re
     return maps;
 }
 
-std::vector<NamedRegion> find_regions(std::span<const ImageF> maps, const PixelRect& window) {
-    if (maps.size() < 2) return {};
-    // Whole blocks, so that no two overlap.
-    const int side = std::max(8, std::min(window.width(), window.height()) / 6);
+std::vector<NamedRegion> find_regions(std::span<const ImageF> untrimmed, const PixelRect& window) {
+    if (untrimmed.size() < 2) return {};
+    std::vector<ImageF> maps(untrimmed.begin(), untrimmed.end());
+    for (ImageF& map : maps) trim(map);
     struct Candidate {
         PixelRect pixels;
         double difference;
     };
     std::vector<Candidate> candidates;
-    for (int y = 0; y + side <= window.height(); y += side)
-        for (int x = 0; x + side <= window.width(); x += side) {
-            const PixelRect block{x, y, x + side, y + side};
-            std::vector<double> errors;
-            for (const ImageF& map : maps) errors.push_back(mean_of(map, {.region = block}));
-            // They could not be sorted.
-            if (!std::ranges::all_of(errors, [](double error) { return std::isfinite(error); })) continue;
-            const auto [least, most] = std::ranges::minmax(errors);
-            candidates.push_back({moved_to(block, x + window.x0, y + window.y0), most - least});
-        }
+    for (const PixelRect& block : whole_blocks(window)) {
+        std::vector<double> errors;
+        for (const ImageF& map : maps) errors.push_back(mean_of(map, {.region = within(block, window)}));
+        // They could not be sorted.
+        if (!std::ranges::all_of(errors, [](double error) { return std::isfinite(error); })) continue;
+        const auto [least, most] = std::ranges::minmax(errors);
+        candidates.push_back({block, most - least});
+    }
     std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::difference);
     std::vector<NamedRegion> regions;
     for (std::size_t i = 0; i < std::min(kFoundRegions, candidates.size()); ++i)
@@ -232,10 +279,12 @@ void measure(ComparisonReport& report, std::span<const Variant> variants, std::s
              std::span<const FinishedImages> images, const std::optional<Reference>& reference, const ErrorMaps& maps,
              std::span<const NamedRegion> regions, const MeasureContext& context) {
     for (std::size_t v = 0; v < variants.size(); ++v) {
-        report.variants.push_back(describe(variants[v], renders[v], images[v]));
+        VariantReport& variant = report.variants.emplace_back(describe(variants[v], renders[v], images[v]));
+        // Without any variance there is nothing to tell it by.
+        if (variant.variance > 0.0) variant.efficiency = 1.0 / (variant.variance * report.time_of(variant).mean());
         if (!reference) continue;
-        measure_convergence(report.variants.back(), renders[v], *reference, context.store);
-        fit_slopes(report.variants.back());
+        measure_convergence(variant, renders[v], *reference, context.store);
+        fit_slopes(variant);
     }
     if (reference) {
         for (const ErrorMetric metric : kErrorMetrics)
@@ -251,7 +300,7 @@ void measure(ComparisonReport& report, std::span<const Variant> variants, std::s
         const auto named = [&](const std::string& name) -> const VariantReport& {
             return *std::ranges::find(report.variants, name, &VariantReport::name);
         };
-        fill_ratios(pair, named(pair.a), named(pair.b));
+        fill_ratios(pair, report, named(pair.a), named(pair.b));
     }
 }
 

@@ -29,6 +29,9 @@ struct ErrorMaps {
 [[nodiscard]] ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
                                    const std::string& working_space, const MeasureContext& context);
 
+/// A note if the times of variants, which were to be equal, differ by more than a tenth; else empty.
+[[nodiscard]] std::string unequal_times(const ComparisonReport& report);
+
 /// A part of the image to look at, in the full image's coordinates.
 struct NamedRegion {
     std::string name;
@@ -36,8 +39,16 @@ struct NamedRegion {
     bool found = false;
 };
 
+/// Sets the largest values of `map`, 0.1% of its pixels, to 0: fireflies.
+void trim(ImageF& map);
+
+/// Returns the blocks, of a sixth of the shorter side, that may be looked at, in the full image's coordinates; no two
+/// overlap.
+[[nodiscard]] std::vector<PixelRect> whole_blocks(const PixelRect& window);
+
 /// The blocks of the image whose errors, of which each variant has a map, differ most between two of the variants; at
-/// most three. Blocks with an error that is not finite have no place among them.
+/// most three. The largest 0.1% of each map, which are fireflies, do not count. Blocks with an error that is not finite
+/// have no place among them.
 [[nodiscard]] std::vector<NamedRegion> find_regions(std::span<const ImageF> maps, const PixelRect& window);
 
 /// Fills `report.variants`, `metrics`, `pairs`' ratios and `regions`; errors where there is a reference, of which

@@ -110,8 +110,19 @@ Reference::Reference(ImageF image, ReferenceReport report) : report_(std::move(r
     images_.push_back(std::move(image));
 }
 
-Reference::Reference(std::vector<ImageF> of_rounds, ReferenceReport report)
-    : images_(std::move(of_rounds)), report_(std::move(report)) {}
+Reference::Reference(std::vector<ImageF> of_rounds, ImageF variance, ReferenceReport report)
+    : images_(std::move(of_rounds)), variance_(std::move(variance)), report_(std::move(report)) {}
+
+ImageF Reference::whole() const {
+    // Each render is in the images of all rounds but its own.
+    ImageF mean(images_.front().width, images_.front().height, images_.front().channels);
+    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+        double sum = 0.0;
+        for (const ImageF& image : images_) sum += static_cast<double>(image.pixels[i]);
+        mean.pixels[i] = static_cast<float>(sum / static_cast<double>(images_.size()));
+    }
+    return mean;
+}
 
 const ImageF& Reference::of_round(std::size_t round) const {
     return images_.size() == 1 ? images_.front() : images_[round];
@@ -149,6 +160,10 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
                             .different_light = different_light(variants[a], variants[b])};
             const bool same_light = pair.different_light.empty();
             pair.comparable = same_light && variants[a].cannot_find.empty() && variants[b].cannot_find.empty();
+            for (const std::size_t v : {a, b})
+                if (!variants[v].cannot_find.empty())
+                    pair.not_tested = fmt::format("'{}' cannot find all light", variants[v].name);
+            if (!same_light) pair.not_tested = pair.different_light;
             if (same_light && images[a].block_size && images[b].block_size) {
                 const int size = std::max(*images[a].block_size, *images[b].block_size);
                 pair.agreement_options.block_size = size;
@@ -160,6 +175,11 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
                 tested.worst.x += variants[a].sampling.window.x0;
                 tested.worst.y += variants[a].sampling.window.y0;
                 pair.agreement = tested;
+            } else if (pair.not_tested.empty()) {
+                pair.not_tested = images[a].of_seeds.size() < 2
+                                      ? "one seed tells nothing of its noise"
+                                      : fmt::format("few pixels make up the image of '{}'",
+                                                    variants[images[a].block_size ? b : a].name);
             }
             pairs.push_back(std::move(pair));
         }
@@ -183,12 +203,16 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
     ReferenceReport report{.kind = "pooled", .noise_rel_mse = 0.0};
     const ImageF& like = images.front().of_seeds.front();
     std::vector<ImageF> of_rounds(rounds, ImageF(like.width, like.height, like.channels));
+    ImageF variance(like.width, like.height, like.channels);
     for (std::size_t i = 0; i < members.size(); ++i) {
         const FinishedImages& member = images[members[i]];
         report.weights[variants[members[i]].name] = weights[i];
         report.noise_rel_mse += weights[i] * weights[i] * variances[i] / static_cast<double>(rounds - 1);
         for (std::size_t round = 0; round < rounds; ++round)
             add_mean(of_rounds[round], member.of_seeds, round, weights[i]);
+        const auto squared = static_cast<float>(weights[i] * weights[i]);
+        for (std::size_t p = 0; p < variance.pixels.size(); ++p)
+            variance.pixels[p] += squared * member.estimate.variance.pixels[p];
     }
     report.text = fmt::format(
         "Pooled from the variants after they were found to agree: each image is measured against the mean of all "
@@ -200,7 +224,7 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
     if (std::ranges::all_of(members, [&](std::size_t v) { return variants[v].settings.integrator.type == integrator; }))
         notes.push_back(made_alone_by(integrator, "all variants that it was pooled from are"));
     add_different_light(notes, first, variants);
-    return Reference(std::move(of_rounds), std::move(report));
+    return Reference(std::move(of_rounds), std::move(variance), std::move(report));
 }
 
 std::vector<std::string> reference_notes(const Variant& reference, std::span<const Variant> variants) {

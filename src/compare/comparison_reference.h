@@ -17,15 +17,21 @@ class Reference {
   public:
     /// Holds one image that has nothing to do with those that are measured.
     Reference(ImageF image, ReferenceReport report);
-    /// Holds a pooled reference: for every round of renders an image that the round had no part in.
-    Reference(std::vector<ImageF> of_rounds, ReferenceReport report);
+    /// Holds a pooled reference: for every round of renders an image that the round had no part in, and the variance of
+    /// each value of their mean.
+    Reference(std::vector<ImageF> of_rounds, ImageF variance, ReferenceReport report);
 
     /// Returns the reference for the render with number `round` of every variant.
     [[nodiscard]] const ImageF& of_round(std::size_t round) const;
+    /// Returns the reference of all rounds together.
+    [[nodiscard]] ImageF whole() const;
+    /// Returns the variance of each value of `whole`; null if it is not known.
+    [[nodiscard]] const ImageF* variance() const { return variance_ ? &*variance_ : nullptr; }
     [[nodiscard]] const ReferenceReport& report() const { return report_; }
 
   private:
     std::vector<ImageF> images_;
+    std::optional<ImageF> variance_;
     ReferenceReport report_;
 };
 

@@ -3,11 +3,13 @@
 #include "film/median_of_means.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
+#include "report/profile_figures.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -36,6 +38,10 @@ ImageF rgb_of(const Film& film, const AovSet* aovs) {
     return image;
 }
 
+/// Renders that tell before all others how long a sample takes, of each variant, and what share of the time they take.
+constexpr int kCalibrations = 3;
+constexpr double kCalibrationShare = 0.1;
+
 /// A render whose time is counted while it renders only.
 class TimedRender {
   public:
@@ -50,11 +56,11 @@ class TimedRender {
     /// One more pass, up to `last` samples. False if the time is spent, the samples are taken, or it is interrupted.
     bool advance(std::uint32_t last) {
         const std::uint32_t most = std::min(last, budget_.spp.value_or(kMostSamples));
-        if (spp() >= most || (budget_.seconds && seconds() >= *budget_.seconds && spp() > 0)) return false;
+        if (spp() >= most || (budget_.seconds && time() >= *budget_.seconds && spp() > 0)) return false;
         std::uint32_t count = pass_size(spp(), most);
-        if (budget_.seconds) count = fit_pass(count, spp(), seconds(), *budget_.seconds);
+        if (budget_.seconds) count = fit_pass(count, spp(), time(), *budget_.seconds);
         const bool done = render_.add_samples(count, [] { return interrupt_requested().load(); });
-        const double fraction = budget_.seconds ? seconds() / *budget_.seconds : double(spp()) / double(*budget_.spp);
+        const double fraction = budget_.seconds ? time() / *budget_.seconds : double(spp()) / double(*budget_.spp);
         // Written so that no fraction at all, as of no time, is 1.
         display_.update({.fraction = fraction < 1.0 ? fraction : 1.0,
                          .seconds = seconds(),
@@ -66,6 +72,8 @@ class TimedRender {
     [[nodiscard]] std::uint32_t spp() const { return state().spp_done; }
     [[nodiscard]] double seconds() const { return state().wall_seconds; }
     [[nodiscard]] double cpu_seconds() const { return state().cpu_seconds; }
+    /// Returns the time that the budget counts.
+    [[nodiscard]] double time() const { return budget_.by_wall ? seconds() : cpu_seconds(); }
     [[nodiscard]] ImageF image() const { return rgb_of(state().film, aovs_.get()); }
     [[nodiscard]] RenderCounters counters() const { return state().counters; }
 
@@ -83,18 +91,46 @@ class TimedRender {
     ProgressDisplay display_;
 };
 
-/// Renders and keeps the images on the way; returns false if it is interrupted.
-bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
+/// Renders and calls `keep` wherever an image is kept on the way; returns false if it is interrupted.
+bool render_in_steps(TimedRender& render, const std::function<void()>& keep) {
     std::uint32_t next = 1;
-    const auto keep = [&] {
-        result.checkpoints.push_back({render.spp(), render.seconds(), render.cpu_seconds(), store.add(render.image())});
-    };
     while (render.advance(next)) {
         if (render.spp() < next) continue;
         keep();
         next = next_checkpoint(next);
     }
-    if (interrupt_requested()) return false;
+    return !interrupt_requested();
+}
+
+/// Returns how many samples each variant takes in the time of the budget; nothing if it is interrupted. Passes end
+/// where they do in the renders that follow.
+std::optional<std::vector<std::uint32_t>> calibrated_samples(std::span<const Variant> variants,
+                                                             const RendersRequest& request, const ThreadPool& threads) {
+    const double wanted = *request.budget.seconds;
+    RenderBudget budget = request.budget;
+    budget.seconds = kCalibrationShare * wanted;
+    std::vector<std::vector<double>> samples_per_second(variants.size());
+    for (int round = 0; round < kCalibrations; ++round)
+        for (std::size_t v = 0; v < variants.size(); ++v) {
+            TimedRender render(variants[v], request.first_seed, threads, budget,
+                               fmt::format("{} calibration {}/{}", variants[v].name, round + 1, kCalibrations),
+                               request.quiet);
+            if (!render_in_steps(render, [] {})) return std::nullopt;
+            samples_per_second[v].push_back(render.spp() / render.time());
+        }
+    std::vector<std::uint32_t> samples;
+    for (std::vector<double>& of_variant : samples_per_second)
+        samples.push_back(static_cast<std::uint32_t>(
+            std::clamp(std::round(wanted * median(of_variant)), 1.0, static_cast<double>(kMostSamples))));
+    return samples;
+}
+
+/// Renders and keeps the images on the way; returns false if it is interrupted.
+bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
+    const auto keep = [&] {
+        result.checkpoints.push_back({render.spp(), render.seconds(), render.cpu_seconds(), store.add(render.image())});
+    };
+    if (!render_in_steps(render, keep)) return false;
     if (result.checkpoints.back().spp < render.spp()) keep();
     result.counters = render.counters();
     return true;
@@ -109,13 +145,17 @@ std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t v
 std::vector<VariantRenders> render_variants(std::span<const Variant> variants, const RendersRequest& request,
                                             ImageStore& store, const ThreadPool& threads) {
     std::vector<VariantRenders> renders(variants.size());
+    std::vector<std::uint32_t> samples(variants.size(), request.budget.spp.value_or(0));
+    if (request.budget.seconds) {
+        auto calibrated = calibrated_samples(variants, request, threads);
+        if (!calibrated) return renders;
+        samples = std::move(*calibrated);
+    }
     for (int seed = 0; seed < request.seeds; ++seed)
         for (std::size_t v = 0; v < variants.size(); ++v) {
-            const RenderBudget budget =
-                seed == 0 ? request.budget : RenderBudget{.spp = renders[v].seeds.front().checkpoints.back().spp};
             SeedRender result{.seed =
                                   render_seed(request.first_seed, static_cast<std::size_t>(seed), v, variants.size())};
-            TimedRender render(variants[v], result.seed, threads, budget,
+            TimedRender render(variants[v], result.seed, threads, {.spp = samples[v]},
                                fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds), request.quiet);
             if (!keep_images(render, store, result)) {
                 for (VariantRenders& of_variant : renders) of_variant.seeds.resize(static_cast<std::size_t>(seed));
@@ -128,7 +168,8 @@ std::vector<VariantRenders> render_variants(std::span<const Variant> variants, c
 
 std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
                                        const ThreadPool& threads, bool quiet) {
-    TimedRender render(variant, seed, threads, {.seconds = seconds}, "reference by " + variant.name, quiet);
+    TimedRender render(variant, seed, threads, {.seconds = seconds, .by_wall = true}, "reference by " + variant.name,
+                       quiet);
     while (render.advance(kMostSamples)) {
     }
     if (interrupt_requested()) return std::nullopt;

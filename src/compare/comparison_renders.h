@@ -15,8 +15,9 @@ namespace etendue {
 
 /// Sets what each render takes: one of the two is set.
 struct RenderBudget {
-    std::optional<double> seconds{};
+    std::optional<double> seconds{};  ///< on the clock, or of all threads together
     std::optional<std::uint32_t> spp{};
+    bool by_wall = false;  ///< the seconds are those on the clock
 };
 
 /// An image on the way.
@@ -52,9 +53,10 @@ struct RendersRequest {
                                         std::size_t variants);
 
 /// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what
-/// else the machine does falls on all alike. The first render of a variant takes as many samples as fit into the time,
-/// the others as many as the first. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2) apart.
-/// Once an interrupt is requested, the renders are returned that all variants have.
+/// else the machine does falls on all alike. All renders of a variant take as many samples; if times are equal, as many
+/// as take that time by the median of several short renders before, in turns as well. Images are kept after 1, 2, 3, 4,
+/// 6, 8, ... samples, a factor of sqrt(2) apart. Once an interrupt is requested, the renders are returned that all
+/// variants have.
 [[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
                                                           const RendersRequest& request, ImageStore& store,
                                                           const ThreadPool& threads);

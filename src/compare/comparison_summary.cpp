@@ -1,6 +1,7 @@
 #include "compare/comparison_summary.h"
 
 #include "core/log.h"
+#include "report/human_units.h"
 
 #include <cmath>
 #include <string>
@@ -13,30 +14,41 @@ namespace etendue {
 namespace {
 
 void print(const VariantReport& variant) {
-    std::string line = fmt::format("{}: {} spp in {:.3g} s", variant.name, variant.spp, variant.seconds.mean());
+    std::string line = fmt::format("{}: {} spp in {:.3g} s, {:.3g} s of CPU time", variant.name, variant.spp,
+                                   variant.seconds.mean(), variant.cpu_seconds.mean());
     for (const auto& [metric, title] : {std::pair{"relmse", "relMSE"}, std::pair{"relmse-trimmed", "trimmed"}})
         if (const auto error = variant.errors.find(metric); error != variant.errors.end())
             line += fmt::format(", {} {:.3g}", title, error->second.mean());
     log_info("{}, {:.2f} Msamples per CPU s", line, variant.samples_per_cpu_second * 1e-6);
 }
 
+std::string text_of(const RatioInterval& interval) {
+    if (!std::isfinite(interval.low)) return fmt::format("{:.3g}", interval.ratio);
+    return fmt::format("{:.3g} ({:.0f}%: {:.3g} to {:.3g})", interval.ratio, 100.0 * kRatioConfidence, interval.low,
+                       interval.high);
+}
+
 void print(const PairReport& pair) {
-    if (const auto ratio = pair.ratios.find("relmse_seconds");
-        ratio != pair.ratios.end() && std::isfinite(ratio->second))
-        log_info("relMSE x seconds of {} over that of {}: {:.3g}", pair.a, pair.b, ratio->second);
-    if (!pair.different_light.empty())
-        log_info("{} and {} show different light and are not tested: {}", pair.a, pair.b, pair.different_light);
-    else if (pair.agreement && pair.comparable)
-        log_info("{} and {} {}: {}", pair.a, pair.b, pair.agreement->agree() ? "agree" : "DISAGREE",
-                 pair.agreement->str());
+    for (const auto& [key, title] :
+         {std::pair{"relmse_time", "relMSE x time"}, std::pair{"relmse-trimmed_time", "trimmed"}})
+        if (const auto ratio = pair.ratios.find(key); ratio != pair.ratios.end() && std::isfinite(ratio->second.ratio))
+            log_info("{} of {} over that of {}: {}", title, pair.a, pair.b, text_of(ratio->second));
+    if (!pair.not_tested.empty())
+        log_info("{} and {} are not tested: {}", pair.a, pair.b, pair.not_tested);
+    else if (pair.agreement)
+        log_info(
+            "{} and {} {}: {}; a difference of {} of the whole image, or {} of a block, is seen with probability "
+            "{}",
+            pair.a, pair.b, pair.agreement->agree() ? "agree" : "DISAGREE", pair.agreement->str(),
+            human_percent(pair.smallest_of_image()), human_percent(pair.smallest_of_block()), kPower);
 }
 
 void print(const RegionReport& region) {
     for (const RegionVariant& variant : region.variants) {
         std::string line = fmt::format("{}, {}: mean {:.4g}", region.name, variant.name, fmt::join(variant.mean, " "));
         if (!variant.errors.empty())
-            line += fmt::format(", relMSE {:.3g}, relMSE x seconds {:.3g}, mean off by {:.2f}% (deviation {:.2f}%)",
-                                variant.errors.at("relmse").mean(), variant.rel_mse_seconds,
+            line += fmt::format(", relMSE {:.3g}, relMSE x time {:.3g}, mean off by {:.2f}% (deviation {:.2f}%)",
+                                variant.errors.at("relmse").mean(), variant.rel_mse_time,
                                 100.0 * variant.mean_error.mean(), 100.0 * variant.mean_error.deviation());
         log_info("{}", line);
     }

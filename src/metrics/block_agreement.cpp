@@ -256,6 +256,11 @@ ImageF agreement_map(const ImageEstimate& a, const ImageEstimate& b, const Agree
     return map;
 }
 
+double smallest_difference(double error, double significance, std::size_t tests) {
+    // The critical value of a two-sided test of twice 1 - kPower is the one-sided quantile of kPower.
+    return error * (critical_z(significance, tests) + critical_z(2.0 * (1.0 - kPower), 1));
+}
+
 double critical_z(double significance, std::size_t tests) {
     // Of one test: 1 - (1 - significance)^(1 / tests).
     const double p = -std::expm1(std::log1p(-significance) / static_cast<double>(tests));

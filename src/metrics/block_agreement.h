@@ -96,6 +96,13 @@ struct BlockAgreement {
 [[nodiscard]] ImageF agreement_map(const ImageEstimate& a, const ImageEstimate& b,
                                    const AgreementOptions& options = {});
 
+/// The probability with which `smallest_difference` is seen.
+inline constexpr double kPower = 0.9;
+
+/// Returns the smallest difference of two means that a test of `tests` > 0, failing by chance with probability
+/// `significance` in (0, 1), sees with probability kPower: of a normal estimate with the standard error `error`.
+[[nodiscard]] double smallest_difference(double error, double significance, std::size_t tests);
+
 /// The |z| that one of `tests` > 0 standard normal numbers exceeds with probability `significance` in (0, 1).
 [[nodiscard]] double critical_z(double significance, std::size_t tests);
 

@@ -7,6 +7,10 @@ namespace etendue {
 
 namespace {
 
+/// Least share of the variance of the logarithms of errors that a line explains which fits them.
+constexpr double kLeastDetermination = 0.98;
+constexpr double kLeastPoints = 3.0;
+
 bool has_logarithms(const ErrorAfter& point) {
     return point.work > 0.0 && point.error > 0.0 && std::isfinite(point.work) && std::isfinite(point.error);
 }
@@ -25,13 +29,16 @@ std::optional<double> log_log_slope(std::span<const ErrorAfter> points) {
     }
     double xx = 0.0;
     double xy = 0.0;
+    double yy = 0.0;
     for (const ErrorAfter& point : points) {
         if (!has_logarithms(point)) continue;
         const double x = std::log(point.work) - x_sum / count;
+        const double y = std::log(point.error) - y_sum / count;
         xx += x * x;
-        xy += x * (std::log(point.error) - y_sum / count);
+        xy += x * y;
+        yy += y * y;
     }
-    if (!(xx > 0.0)) return std::nullopt;
+    if (count < kLeastPoints || !(xx > 0.0) || xy * xy < kLeastDetermination * xx * yy) return std::nullopt;
     return xy / xx;
 }
 

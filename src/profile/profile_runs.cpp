@@ -34,6 +34,15 @@ double share(std::uint64_t part, std::uint64_t whole) {
                      : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Returns the share of the lanes of packets of 16 that the recorded rays fill.
+double packet_fill(const RayRecorder& recorder) {
+    constexpr std::size_t kLanes = 16;
+    std::size_t lanes = 0;
+    for (const std::vector<Ray>& segment : recorder.segments())
+        lanes += (segment.size() + kLanes - 1) / kLanes * kLanes;
+    return share(recorder.ray_count(), lanes);
+}
+
 /// One integrator on one number of threads, with what it needs to render.
 struct Setup {
     std::unique_ptr<const Integrator> integrator;
@@ -52,8 +61,9 @@ bool render_for(ProgressiveRender& render, double seconds, std::uint32_t spp) {
 
 class RunMeasurement {
   public:
-    RunMeasurement(const World& world, const RenderSettings& settings, const ProfileRequest& request)
-        : world_(world), request_(request), display_("profile", request.quiet) {
+    RunMeasurement(const World& world, const SceneNames& names, const RenderSettings& settings,
+                   const ProfileRequest& request)
+        : world_(world), names_(names), request_(request), display_("profile", request.quiet) {
         std::vector<std::shared_ptr<const ThreadPool>> pools;
         for (const int threads : request.threads) pools.push_back(std::make_shared<const ThreadPool>(threads));
         for (const std::string& name : request.integrators) {
@@ -66,6 +76,7 @@ class RunMeasurement {
                 setup.options = make_render_options(of_run);
                 setup.run.integrator = name;
                 setup.run.threads = pool->thread_count();
+                setup.run.light_samples = static_cast<int>(settings.integrator.light_samples);
             }
         }
         steps_ = setups_.size() * static_cast<std::size_t>(request.repetitions + 2) + request.integrators.size();
@@ -158,6 +169,7 @@ class RunMeasurement {
         describe_paths(run, waves);
         describe_tiles(run, profile);
         describe_rays(setup, waves, progressive.state().counters.rays);
+        run.scene_hits = count_scene_hits(world_, names_, waves, progressive.state().counters.rays);
         return true;
     }
 
@@ -197,7 +209,8 @@ class RunMeasurement {
     static void describe_tiles(ProfileRun& run, const RenderProfile& profile) {
         std::vector<double> busy(static_cast<std::size_t>(run.threads), 0.0);
         for (const TileTime& tile : profile.tiles()) {
-            run.tiles.push_back({tile.rect, tile.slot, tile.first_sample, tile.start, tile.end});
+            run.tiles.push_back(
+                {tile.rect, tile.slot, tile.first_sample, tile.start, tile.end, tile.cpu_seconds, tile.samples});
             busy[static_cast<std::size_t>(tile.slot)] += tile.end - tile.start;
         }
         const double mean = std::accumulate(busy.begin(), busy.end(), 0.0) / static_cast<double>(busy.size());
@@ -215,7 +228,8 @@ class RunMeasurement {
                                  .rays = rays[kind],
                                  .seconds = waves.clock().seconds(kind),
                                  .recorded = waves.recorder(kind).ray_count(),
-                                 .hit_share = share(waves.hits(kind), rays[kind])};
+                                 .hit_share = share(waves.hits(kind), rays[kind]),
+                                 .packet_fill = packet_fill(waves.recorder(kind))};
             replay(*setup.threads, waves.recorder(kind), kind, report);
             const auto count = static_cast<double>(rays[kind]);
             single += count / report.single;
@@ -270,7 +284,7 @@ class RunMeasurement {
         CostMap map{.integrator = integrator, .rays = progressive.state().film.resolve_ray_counts()};
         map.seconds.resize(map.rays.size());
         const PixelRect& window = options.window;
-        for (const TileReport& tile : setup->run.tiles) {
+        for (const TileCost& tile : most_expensive_tiles(setup->run)) {
             const auto for_pixels = [&](const auto& visit) {
                 for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
                     for (int x = tile.rect.x0; x < tile.rect.x1; ++x)
@@ -279,10 +293,10 @@ class RunMeasurement {
             };
             double rays = 0.0;
             for_pixels([&](std::size_t p) { rays += static_cast<double>(map.rays[p]); });
+            const double seconds = tile.cpu_seconds_per_sample * static_cast<double>(tile.rect.area());
             if (rays > 0.0)
                 for_pixels([&](std::size_t p) {
-                    map.seconds[p] += static_cast<float>((tile.end - tile.start) *
-                                                         (static_cast<double>(map.rays[p]) / rays) / setup->run.spp);
+                    map.seconds[p] = static_cast<float>(seconds * (static_cast<double>(map.rays[p]) / rays));
                 });
         }
         result_.costs.push_back(std::move(map));
@@ -307,6 +321,7 @@ class RunMeasurement {
     }
 
     const World& world_;
+    const SceneNames& names_;
     const ProfileRequest& request_;
     ProgressDisplay display_;
     std::vector<Setup> setups_;
@@ -320,8 +335,9 @@ class RunMeasurement {
 
 }  // namespace
 
-ProfileRuns measure_runs(const World& world, const RenderSettings& settings, const ProfileRequest& request) {
-    return RunMeasurement(world, settings, request).measure();
+ProfileRuns measure_runs(const World& world, const SceneNames& names, const RenderSettings& settings,
+                         const ProfileRequest& request) {
+    return RunMeasurement(world, names, settings, request).measure();
 }
 
 }  // namespace etendue

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "profile/accelerator_runs.h"
+#include "profile/scene_hits.h"
 #include "render/render.h"
 #include "report/profile_report.h"
 #include "scene/render_settings.h"
@@ -29,7 +30,7 @@ struct ProfileRequest {
 struct CostMap {
     std::string integrator{};
     std::vector<float> rays{};     ///< rays of a sample, pixel by pixel of the window
-    std::vector<float> seconds{};  ///< seconds of a sample: those of the pixel's tile, shared out by rays
+    std::vector<float> seconds{};  ///< CPU seconds of a sample: those of the pixel's tile, shared out by rays
 };
 
 struct ProfileRuns {
@@ -46,7 +47,7 @@ struct ProfileRuns {
 /// Measures every integrator on every number of threads. Repetitions of all runs take turns, so that what else the
 /// machine does falls on all alike; each takes the same samples. After them each run renders once more with its stages
 /// timed and some of its rays recorded, which bare Embree then traces again on as many threads.
-[[nodiscard]] ProfileRuns measure_runs(const World& world, const RenderSettings& settings,
+[[nodiscard]] ProfileRuns measure_runs(const World& world, const SceneNames& names, const RenderSettings& settings,
                                        const ProfileRequest& request);
 
 }  // namespace etendue

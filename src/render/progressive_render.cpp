@@ -245,11 +245,12 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         }
         worker.counters.brightest.expect(options_.brightest, brightest_floor);
         RenderProfile* const profile = options_.profile;
-        double start = 0.0;
+        TileTime time{.rect = job.rect, .slot = slot, .first_sample = job.first_sample};
         if (profile != nullptr) {
             job.profile = &profile->wave(slot);
             job.profile->clock().skip();
-            start = profile->now();
+            time.start = profile->now();
+            time.cpu_seconds = -thread_cpu_seconds();
         }
         const std::uint64_t rays_before = worker.counters.rays.total();
         worker.tile.reset(job.rect, state_.film.layers().layout());
@@ -259,7 +260,10 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         const std::uint64_t samples = camera_sample_count(job);
         if (profile != nullptr) {
             job.profile->clock().stamp(Stage::Film);
-            profile->add_tile({job.rect, slot, job.first_sample, samples, start, profile->now()});
+            time.samples = samples;
+            time.end = profile->now();
+            time.cpu_seconds += thread_cpu_seconds();
+            profile->add_tile(time);
         }
         if (makes_splats) {
             splats_[order[index]].swap(worker.tile.splats());

@@ -20,6 +20,7 @@ struct TileTime {
     std::uint64_t samples = 0;
     double start = 0.0;  ///< seconds since the profile began
     double end = 0.0;
+    double cpu_seconds = 0.0;  ///< processor time of the thread, without what it waited for others
 };
 
 class RenderProfile {

@@ -1,6 +1,7 @@
 #include "report/comparison_report.h"
 #include "report/json_values.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -12,15 +13,18 @@ namespace {
 /// Writes numbers that are not finite as null.
 using Json = nlohmann::ordered_json;
 
-constexpr int kComparisonFormat = 2;
+constexpr int kComparisonFormat = 3;
 constexpr std::array kChannels{"R", "G", "B"};
 
 Json range(const SeedValues& values) {
-    return {{"mean", values.mean()}, {"min", values.least()}, {"max", values.largest()}};
+    return {{"mean", values.mean()}, {"median", values.median()}, {"min", values.least()}, {"max", values.largest()}};
 }
 
 Json spread(const SeedValues& values) {
-    return {{"mean", values.mean()}, {"deviation", values.deviation()}, {"values", values.values}};
+    return {{"mean", values.mean()},
+            {"median", values.median()},
+            {"deviation", values.deviation()},
+            {"values", values.values}};
 }
 
 template <typename Value, typename Write>
@@ -32,8 +36,8 @@ Json object(const std::map<std::string, Value>& members, const Write& write) {
 
 Json to_json(const ConvergenceStep& step) {
     return {{"spp", step.spp},
-            {"seconds", step.seconds},
-            {"cpu_seconds", step.cpu_seconds},
+            {"seconds", step.seconds.mean()},
+            {"cpu_seconds", step.cpu_seconds.mean()},
             {"errors", object(step.errors, range)}};
 }
 
@@ -43,7 +47,7 @@ Json to_json(const VariantReport& variant) {
     return {{"name", variant.name},
             {"options", variant.options},
             {"command", variant.command},
-            {"command_note", variant.command_note.empty() ? Json() : Json(variant.command_note)},
+            {"command_note", known(variant.command_note)},
             {"seeds", variant.seeds},
             {"cannot_find", variant.cannot_find},
             {"spp", variant.spp},
@@ -59,7 +63,7 @@ Json to_json(const VariantReport& variant) {
             {"efficiency", variant.efficiency},
             {"convergence", std::move(convergence)},
             {"slopes", object(variant.slopes, [](const ConvergenceSlope& slope) {
-                 return Json{{"spp", slope.spp}, {"seconds", slope.seconds}};
+                 return Json{{"spp", slope.spp}, {"seconds", slope.seconds}, {"cpu_seconds", slope.cpu_seconds}};
              })}};
 }
 
@@ -68,7 +72,10 @@ Json to_json(const std::optional<ReachedError>& reached) {
     return {{"seconds", reached->seconds}, {"extrapolated", reached->extrapolated}};
 }
 
-Json to_json(const BlockAgreement& agreement, const AgreementOptions& options) {
+Json test_of(const PairReport& pair) {
+    if (!pair.agreement) return {};
+    const BlockAgreement& agreement = *pair.agreement;
+    const AgreementOptions& options = pair.agreement_options;
     const BlockDifference& worst = agreement.worst;
     return {{"agree", agreement.agree()},
             {"blocks_agree", agreement.blocks_agree},
@@ -79,6 +86,8 @@ Json to_json(const BlockAgreement& agreement, const AgreementOptions& options) {
             {"significance", options.significance},
             {"mean_difference", agreement.mean_difference},
             {"mean_tolerance", options.mean_tolerance},
+            {"smallest_seen",
+             {{"power", kPower}, {"image", pair.smallest_of_image()}, {"block", pair.smallest_of_block()}}},
             {"worst",
              {{"x", worst.x},
               {"y", worst.y},
@@ -94,14 +103,24 @@ Json to_json(const BlockAgreement& agreement, const AgreementOptions& options) {
 Json to_json(const PairReport& pair) {
     return {{"a", pair.a},
             {"b", pair.b},
-            {"ratios", pair.ratios},
+            {"ratios", object(pair.ratios, [](const RatioInterval& interval) { return Json(interval.ratio); })},
+            {"intervals", object(pair.ratios,
+                                 [](const RatioInterval& interval) {
+                                     return Json::array({interval.low, interval.high});
+                                 })},
+            {"confidence", kRatioConfidence},
             {"time_to_reach",
              {{"metric", "relmse"},
               {"a_reaches_b", to_json(pair.a_reaches_b)},
               {"b_reaches_a", to_json(pair.b_reaches_a)}}},
             {"comparable", pair.comparable},
-            {"different_light", pair.different_light.empty() ? Json() : Json(pair.different_light)},
-            {"agreement", pair.agreement ? to_json(*pair.agreement, pair.agreement_options) : Json()}};
+            {"different_light", known(pair.different_light)},
+            {"not_tested", known(pair.not_tested)},
+            {"agreement", test_of(pair)}};
+}
+
+Json to_json(const UntestedVariant& variant) {
+    return {{"name", variant.name}, {"why", variant.why}};
 }
 
 Json to_json(const RegionReport& region) {
@@ -113,7 +132,7 @@ Json to_json(const RegionReport& region) {
                             {"mean_error", variant.mean_error.mean()},
                             {"mean_error_deviation", variant.mean_error.deviation()},
                             {"errors", object(variant.errors, spread)},
-                            {"relmse_seconds", variant.rel_mse_seconds}});
+                            {"relmse_time", variant.rel_mse_time}});
     return {
         {"name", region.name},    {"found", region.found},  {"x0", region.pixels.x0},         {"y0", region.pixels.y0},
         {"x1", region.pixels.x1}, {"y1", region.pixels.y1}, {"variants", std::move(variants)}};
@@ -123,12 +142,18 @@ Json to_json(const StrategiesReport& report) {
     Json rows = Json::array();
     for (const StrategyReport& strategy : report.strategies) {
         const int edges = strategy.s + strategy.t - 1;
-        if (rows.empty() || rows.back()["edges"] != edges)
-            rows.push_back({{"edges", edges}, {"images", Json::array()}});
+        if (rows.empty() || rows.back()["edges"] != edges) {
+            const auto row = std::ranges::find(report.rows, edges, &StrategyRow::edges);
+            rows.push_back({{"edges", edges},
+                            {"exposure", row == report.rows.end() ? 0.0 : row->exposure},
+                            {"images", Json::array()}});
+        }
         rows.back()["images"].push_back({{"s", strategy.s},
                                          {"t", strategy.t},
                                          {"weighted_mean", strategy.weighted_mean},
-                                         {"unweighted_mean", strategy.unweighted_mean}});
+                                         {"unweighted_mean", strategy.unweighted_mean},
+                                         {"share", strategy.share},
+                                         {"mean_weight", strategy.mean_weight}});
     }
     return {{"variant", report.variant}, {"spp", report.spp}, {"longest", report.longest}, {"rows", std::move(rows)}};
 }
@@ -136,6 +161,7 @@ Json to_json(const StrategiesReport& report) {
 Json to_json(const ReferenceReport& reference) {
     Json json{{"kind", reference.kind}, {"text", reference.text}, {"noise_relmse", reference.noise_rel_mse}};
     if (!reference.weights.empty()) json["weights"] = reference.weights;
+    if (reference.seeds.count > 0) json["seeds"] = {{"first", reference.seeds.first}, {"count", reference.seeds.count}};
     return json;
 }
 
@@ -170,8 +196,9 @@ std::string to_json(const ComparisonReport& report) {
                 {"exposure", report.exposure}}},
               {"machine", {{"threads", report.threads}, {"isa", report.isa}, {"libraries", report.libraries}}},
               {"settings",
-               {{"seconds", report.seconds ? Json(*report.seconds) : Json()},
-                {"spp", report.spp ? Json(*report.spp) : Json()},
+               {{"time", report.by_wall ? "wall" : "cpu"},
+                {"seconds", known(report.seconds)},
+                {"spp", known(report.spp)},
                 {"seeds", report.seeds},
                 {"first_seed", report.first_seed}}},
               {"reference", to_json(report.reference)},
@@ -183,6 +210,7 @@ std::string to_json(const ComparisonReport& report) {
               {"notes", report.notes},
               {"variants", array(report.variants)},
               {"pairs", array(report.pairs)},
+              {"not_tested", array(report.untested())},
               {"regions", array(report.regions)}};
     if (report.strategies) json["strategies"] = to_json(*report.strategies);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

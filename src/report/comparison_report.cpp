@@ -1,5 +1,7 @@
 #include "report/comparison_report.h"
 
+#include "report/profile_figures.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +11,16 @@ namespace etendue {
 double SeedValues::mean() const {
     if (values.empty()) return kUnknown;
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double SeedValues::median() const {
+    return etendue::median(values);
+}
+
+LogEstimate SeedValues::log_mean() const {
+    const double centre = mean();
+    const auto count = static_cast<double>(values.size());
+    return {std::log(centre), std::pow(deviation() / centre, 2.0) / count, count - 1.0};
 }
 
 double SeedValues::deviation() const {
@@ -25,6 +37,30 @@ double SeedValues::least() const {
 
 double SeedValues::largest() const {
     return values.empty() ? kUnknown : *std::ranges::max_element(values);
+}
+
+double PairReport::smallest_of_image() const {
+    if (!agreement) return kUnknown;
+    return smallest_difference(agreement->mean_error, agreement_options.significance, agreement->tests);
+}
+
+double PairReport::smallest_of_block() const {
+    if (!agreement) return kUnknown;
+    return smallest_difference(agreement->block_error, agreement_options.significance, agreement->tests);
+}
+
+std::vector<UntestedVariant> ComparisonReport::untested() const {
+    std::vector<UntestedVariant> result;
+    for (const VariantReport& variant : variants) {
+        std::string why;
+        const bool is_tested = std::ranges::any_of(pairs, [&](const PairReport& pair) {
+            if (pair.a != variant.name && pair.b != variant.name) return false;
+            if (why.empty()) why = pair.not_tested;
+            return pair.not_tested.empty();
+        });
+        if (!is_tested && !pairs.empty()) result.push_back({variant.name, why});
+    }
+    return result;
 }
 
 bool ComparisonReport::agrees() const {

@@ -5,6 +5,7 @@
 
 #include "core/pixel_rect.h"
 #include "metrics/block_agreement.h"
+#include "report/ratio_interval.h"
 
 #include <array>
 #include <cstdint>
@@ -23,10 +24,14 @@ struct SeedValues {
     std::vector<double> values{};
 
     [[nodiscard]] double mean() const;
+    /// Returns the middle one, or the mean of the two in the middle; fireflies of a few do not move it.
+    [[nodiscard]] double median() const;
     /// Standard deviation of one of them; unknown of fewer than two.
     [[nodiscard]] double deviation() const;
     [[nodiscard]] double least() const;
     [[nodiscard]] double largest() const;
+    /// Returns the logarithm of the mean, with a variance to first order: that of the mean over its square.
+    [[nodiscard]] LogEstimate log_mean() const;
 };
 
 /// By the key of the metric: "relmse".
@@ -42,15 +47,16 @@ struct ReportedMetric {
 /// Where all seeds of a variant were looked at.
 struct ConvergenceStep {
     std::uint32_t spp = 0;
-    double seconds = 0.0;  ///< mean over the seeds
-    double cpu_seconds = 0.0;
+    SeedValues seconds{};
+    SeedValues cpu_seconds{};
     ErrorsByMetric errors{};
 };
 
-/// Exponents of the error against samples and against seconds, fitted to its means over the seeds.
+/// Exponents of the error against samples and times, fitted to its means over the seeds; unknown where no line fits.
 struct ConvergenceSlope {
     double spp = kUnknown;
     double seconds = kUnknown;
+    double cpu_seconds = kUnknown;
 };
 
 struct VariantReport {
@@ -70,7 +76,7 @@ struct VariantReport {
     std::uint64_t dropped_samples = 0;
     ErrorsByMetric errors{};       ///< errors of the last images; empty without a reference
     double variance = kUnknown;    ///< variance of one render, as relative_variance of metrics/ defines it
-    double efficiency = kUnknown;  ///< 1 / (variance × seconds)
+    double efficiency = kUnknown;  ///< 1 / (variance × time), the time by which variants are compared
     std::vector<ConvergenceStep> convergence{};
     std::map<std::string, ConvergenceSlope> slopes{};  ///< by metric
 };
@@ -84,14 +90,26 @@ struct ReachedError {
 struct PairReport {
     std::string a{};
     std::string b{};
-    std::map<std::string, double>
-        ratios{};  ///< a's over b's: metrics, "relmse_seconds", "rays_per_second", "efficiency"
+    /// Holds a's over b's: metrics, "relmse_time", "relmse-trimmed_time", "rays_per_second", "efficiency".
+    std::map<std::string, RatioInterval> ratios{};
     std::optional<ReachedError> a_reaches_b{};
     std::optional<ReachedError> b_reaches_a{};
     std::string different_light{};  ///< why they show different light by what was asked for; empty if they do not
     bool comparable = true;         ///< they show the same light, and both find all of it
+    std::string not_tested{};       ///< why a test says nothing of them, the end of a sentence; empty if it does
     std::optional<BlockAgreement> agreement{};
     AgreementOptions agreement_options{};
+
+    /// Returns the smallest relative difference of the whole images' means that the test would have seen, and that of
+    /// a block of median noise; unknown without a test.
+    [[nodiscard]] double smallest_of_image() const;
+    [[nodiscard]] double smallest_of_block() const;
+};
+
+/// A variant that no test of agreement says anything of, and why.
+struct UntestedVariant {
+    std::string name{};
+    std::string why{};
 };
 
 /// One variant within a part of the image. Without a reference there are no errors.
@@ -101,7 +119,7 @@ struct RegionVariant {
     SeedValues luminance{};   ///< mean of the region: of renders alone, so that variants are independent
     SeedValues mean_error{};  ///< error of `luminance` against the reference, relative
     ErrorsByMetric errors{};
-    double rel_mse_seconds = kUnknown;
+    double rel_mse_time = kUnknown;  ///< relMSE times the seconds by which variants are compared
 };
 
 struct RegionReport {
@@ -117,6 +135,14 @@ struct StrategyReport {
     int t = 0;
     double weighted_mean = 0.0;  ///< luminance
     double unweighted_mean = 0.0;
+    double share = 0.0;             ///< share of the luminance of the weighted images of its length, [0, 1]
+    double mean_weight = kUnknown;  ///< mean of its weights, by the light that it makes; unknown where it makes none
+};
+
+/// Paths of one length in the pyramid of strategies.
+struct StrategyRow {
+    int edges = 0;
+    double exposure = 0.0;  ///< stops by which its images are brighter than the others
 };
 
 struct StrategiesReport {
@@ -124,6 +150,13 @@ struct StrategiesReport {
     std::uint32_t spp = 0;
     int longest = 0;                           ///< edges
     std::vector<StrategyReport> strategies{};  ///< by length, then by s
+    std::vector<StrategyRow> rows{};           ///< by length
+};
+
+/// Seeds from `first` on; after the last there is comes 0.
+struct SeedRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
 };
 
 struct ReferenceReport {
@@ -131,6 +164,7 @@ struct ReferenceReport {
     std::string text{};                       ///< a sentence
     std::map<std::string, double> weights{};  ///< weights of variants in a pooled reference
     double noise_rel_mse = kUnknown;          ///< part of the measured relMSE that is the reference's own noise
+    SeedRange seeds{};                        ///< seeds that a pooled reference was rendered with; else none
 };
 
 /// Holds the values that the first and the last colour of a kind of maps stand for.
@@ -156,7 +190,8 @@ struct ComparisonReport {
     int threads = 0;
     std::string isa{};
     std::map<std::string, std::string> libraries{};
-    std::optional<double> seconds{};     ///< seconds of each render, if times are equal
+    bool by_wall = false;                ///< variants are compared by time on the clock, else by CPU time
+    std::optional<double> seconds{};     ///< seconds of each render by that time, if times are equal
     std::optional<std::uint32_t> spp{};  ///< samples per pixel of each render, if these are equal
     int seeds = 0;
     std::uint32_t first_seed = 0;
@@ -171,6 +206,12 @@ struct ComparisonReport {
 
     /// False if a test says of two comparable variants that their images differ.
     [[nodiscard]] bool agrees() const;
+    /// Returns the variants that no test says anything of, in their order.
+    [[nodiscard]] std::vector<UntestedVariant> untested() const;
+    /// Returns the seconds by which variants are compared.
+    [[nodiscard]] const SeedValues& time_of(const VariantReport& variant) const {
+        return by_wall ? variant.seconds : variant.cpu_seconds;
+    }
 };
 
 /// docs/compare.md describes it.

@@ -2,7 +2,7 @@
 
 #include "report/profile_figures.h"
 #include "report/profile_report.h"
-#include "report/student_t.h"
+#include "report/ratio_interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,34 +15,18 @@ namespace etendue {
 
 namespace {
 
-/// Mean and variance of what a repetition took of one sample, in logarithms.
-struct LogTimes {
-    double mean = std::numeric_limits<double>::quiet_NaN();
-    double variance = std::numeric_limits<double>::quiet_NaN();  ///< unknown of fewer than two
-    double count = 0.0;
-};
-
-LogTimes log_times(const ProfileRun& run) {
-    LogTimes times{.count = static_cast<double>(run.cpu_seconds.size())};
+/// What a repetition took of one sample, in logarithms.
+LogEstimate log_times(const ProfileRun& run) {
+    const auto count = static_cast<double>(run.cpu_seconds.size());
     const auto logarithm = [&](double seconds) { return std::log(seconds / static_cast<double>(run.samples)); };
+    LogEstimate times{.degrees = count - 1.0};
     double sum = 0.0;
     for (const double seconds : run.cpu_seconds) sum += logarithm(seconds);
-    times.mean = sum / times.count;
+    times.value = sum / count;
     double squares = 0.0;
-    for (const double seconds : run.cpu_seconds) squares += std::pow(logarithm(seconds) - times.mean, 2.0);
-    if (times.count > 1.0) times.variance = squares / (times.count - 1.0);
+    for (const double seconds : run.cpu_seconds) squares += std::pow(logarithm(seconds) - times.value, 2.0);
+    if (times.degrees > 0.0) times.variance = squares / times.degrees / count;
     return times;
-}
-
-/// Half the interval of the logarithm of the ratio; NaN if a side has fewer than two repetitions.
-double welch_margin(const LogTimes& a, const LogTimes& b, double confidence) {
-    const double error_a = a.variance / a.count, error_b = b.variance / b.count;
-    const double squared = error_a + error_b;
-    // Also where nothing varies, and Student's distribution has no degrees of freedom.
-    if (!(squared > 0.0)) return squared;
-    const double degrees =
-        squared * squared / (error_a * error_a / (a.count - 1.0) + error_b * error_b / (b.count - 1.0));
-    return student_quantile(confidence, degrees) * std::sqrt(squared);
 }
 
 ProfileVerdict verdict_of(const ComparedRun& run, double tolerance) {
@@ -53,17 +37,17 @@ ProfileVerdict verdict_of(const ComparedRun& run, double tolerance) {
 }
 
 ComparedRun compare_run(const ProfileRun& before, const ProfileRun& now, const ProfileComparisonOptions& options) {
-    const LogTimes a = log_times(before), b = log_times(now);
+    const LogEstimate a = log_times(before), b = log_times(now);
+    const RatioInterval interval = ratio_interval(b, a, options.confidence);
     ComparedRun run{.integrator = now.integrator,
                     .threads = now.threads,
-                    .before = std::exp(a.mean),
-                    .now = std::exp(b.mean),
+                    .before = std::exp(a.value),
+                    .now = std::exp(b.value),
                     .repetitions_before = before.cpu_seconds.size(),
                     .repetitions_now = now.cpu_seconds.size(),
-                    .ratio = std::exp(b.mean - a.mean)};
-    const double margin = welch_margin(a, b, options.confidence);
-    run.low = std::exp(b.mean - a.mean - margin);
-    run.high = std::exp(b.mean - a.mean + margin);
+                    .ratio = interval.ratio,
+                    .low = interval.low,
+                    .high = interval.high};
     run.verdict = verdict_of(run, options.tolerance);
     for (const RayKindReport& kind : now.kinds)
         for (const RayKindReport& earlier : before.kinds)
@@ -86,20 +70,6 @@ std::string difference_of_settings(const std::map<std::string, std::string>& bef
         if (const std::string was = text(before, name), is = text(now, name); was != is)
             return fmt::format("the setting '{}' differs: {} in the baseline, {} now", name, was, is);
     return {};
-}
-
-std::string difference_of_work(const ProfileReport& before, const ProfileReport& now) {
-    if (before.scene != now.scene)
-        return fmt::format("the baseline is of the scene '{}', not of '{}'", before.scene, now.scene);
-    if (before.width != now.width || before.height != now.height)
-        return fmt::format("the baseline has {} x {} pixels, not {} x {}", before.width, before.height, now.width,
-                           now.height);
-    if (before.max_depth != now.max_depth)
-        return fmt::format("paths of the baseline have up to {} edges, not {}", before.max_depth, now.max_depth);
-    if (before.bvh.instanced_triangles != now.bvh.instanced_triangles)
-        return fmt::format("the scene has changed: the baseline's has {} triangles, not {}",
-                           before.bvh.instanced_triangles, now.bvh.instanced_triangles);
-    return difference_of_settings(before.settings, now.settings);
 }
 
 void note_difference(std::vector<std::string>& notes, const char* what, const std::string& before,
@@ -157,6 +127,20 @@ std::vector<ComparedFigure> figures(const ProfileReport& before, const ProfileRe
 }
 
 }  // namespace
+
+std::string difference_of_work(const ProfileReport& before, const ProfileReport& now) {
+    if (before.scene != now.scene)
+        return fmt::format("the baseline is of the scene '{}', not of '{}'", before.scene, now.scene);
+    if (before.width != now.width || before.height != now.height)
+        return fmt::format("the baseline has {} x {} pixels, not {} x {}", before.width, before.height, now.width,
+                           now.height);
+    if (before.max_depth != now.max_depth)
+        return fmt::format("paths of the baseline have up to {} edges, not {}", before.max_depth, now.max_depth);
+    if (before.bvh.instanced_triangles != now.bvh.instanced_triangles)
+        return fmt::format("the scene has changed: the baseline's has {} triangles, not {}",
+                           before.bvh.instanced_triangles, now.bvh.instanced_triangles);
+    return difference_of_settings(before.settings, now.settings);
+}
 
 const char* verdict_name(ProfileVerdict verdict) {
     switch (verdict) {

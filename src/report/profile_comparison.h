@@ -70,6 +70,10 @@ struct ProfileComparison {
 /// SceneError, with the pointer to what is wrong, if that is not a profile of this format, or says what no profile can.
 [[nodiscard]] ProfileBaseline parse_profile(const std::string& json, const std::string& file = "baseline");
 
+/// Says in a sentence how the two profiles are of different work: scene, size, length of paths, triangles or another of
+/// the settings; empty if they are not.
+[[nodiscard]] std::string difference_of_work(const ProfileReport& before, const ProfileReport& now);
+
 /// Why `compare_profiles` refuses the two, in a sentence; empty if it does not. Profiles that differ in scene, size,
 /// length of paths, triangles or another of the settings are refused, and those of which no run is in both, with two
 /// repetitions or more in the baseline. Of the runs of `now` only integrators and threads are looked at, so that it can

@@ -47,20 +47,33 @@ double sum_of(const std::vector<NamedValue>& values) {
 }
 
 std::vector<TileCost> most_expensive_tiles(const ProfileRun& run, std::size_t count) {
-    std::map<std::array<int, 4>, double> seconds;
-    double sum = 0.0;
+    struct Passes {
+        std::vector<double> per_sample;
+        double samples = 0.0;
+    };
+    std::map<std::array<int, 4>, Passes> places;
     for (const TileReport& tile : run.tiles) {
-        seconds[{tile.rect.y0, tile.rect.x0, tile.rect.y1, tile.rect.x1}] += tile.end - tile.start;
-        sum += tile.end - tile.start;
+        Passes& passes = places[{tile.rect.y0, tile.rect.x0, tile.rect.y1, tile.rect.x1}];
+        const auto samples = static_cast<double>(tile.samples);
+        passes.per_sample.push_back(rate(tile.cpu_seconds, samples));
+        passes.samples += samples;
     }
     std::vector<TileCost> tiles;
-    for (const auto& [place, cost] : seconds)
-        tiles.push_back({{place[1], place[0], place[3], place[2]}, cost, rate(cost, sum)});
+    double sum = 0.0;
+    for (const auto& [place, passes] : places) {
+        const double per_sample = median(passes.per_sample);
+        tiles.push_back({{place[1], place[0], place[3], place[2]}, per_sample, per_sample * passes.samples});
+        sum += tiles.back().cpu_seconds;
+    }
+    for (TileCost& tile : tiles) tile.share = rate(tile.cpu_seconds, sum);
     // Stable: of equal ones the first in the image.
-    std::stable_sort(tiles.begin(), tiles.end(),
-                     [](const TileCost& a, const TileCost& b) { return a.seconds > b.seconds; });
+    std::ranges::stable_sort(tiles, std::ranges::greater{}, &TileCost::cpu_seconds);
     tiles.resize(std::min(tiles.size(), count));
     return tiles;
+}
+
+double cpu_seconds_per_sample(const ProfileRun& run) {
+    return rate(median(run.cpu_seconds), static_cast<double>(run.samples));
 }
 
 std::string heat_map_key(const ProfileRun& run) {

@@ -3,6 +3,8 @@
 
 #include "report/profile_report.h"
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace etendue {
@@ -25,14 +27,20 @@ namespace etendue {
 
 [[nodiscard]] double sum_of(const std::vector<NamedValue>& values);
 
-/// A place of the image in all passes of a run together.
+/// A place of the image in all passes of a run together. Its thread's processor time counts, so that what other
+/// programs took does not, and the median over passes of that of a sample, so that one slow pass does not.
 struct TileCost {
     PixelRect rect{};
-    double seconds = 0.0;
-    double share = 0.0;  ///< share of the time of all tiles, [0, 1]
+    double cpu_seconds_per_sample = 0.0;
+    double cpu_seconds = 0.0;  ///< of all samples
+    double share = 0.0;        ///< share of the CPU time of all tiles, [0, 1]
 };
 
-/// Returns the most expensive tiles of `run`, at most `count`, the most expensive first.
-[[nodiscard]] std::vector<TileCost> most_expensive_tiles(const ProfileRun& run, std::size_t count);
+/// Returns the tiles of `run`, the most expensive first, at most `count`.
+[[nodiscard]] std::vector<TileCost> most_expensive_tiles(const ProfileRun& run,
+                                                         std::size_t count = std::numeric_limits<std::size_t>::max());
+
+/// Returns the median over the repetitions of the CPU seconds of a sample.
+[[nodiscard]] double cpu_seconds_per_sample(const ProfileRun& run);
 
 }  // namespace etendue

@@ -1,9 +1,11 @@
 #include "report/accelerator_json.h"
 #include "report/json_values.h"
+#include "report/profile_advice.h"
 #include "report/profile_figures.h"
 #include "report/profile_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -47,6 +49,9 @@ void write(std::string& text, const Json& json, std::size_t indent) {
 Json to_object(const RayKindReport& kind);
 Json to_object(const TileReport& tile);
 Json to_object(const TileCost& tile);
+Json to_object(const LampReport& lamp);
+Json to_object(const EarlierRun& run);
+Json to_object(const EarlierProfile& profile);
 Json to_object(const LongPathReport& path);
 Json to_object(const ProfileRun& run);
 Json to_object(const ComparedFigure& figure);
@@ -79,17 +84,44 @@ Json to_object(const RayKindReport& kind) {
             {"seconds", kind.seconds},     {"rays_per_second", rays_per_second(kind)},
             {"hit_share", kind.hit_share}, {"recorded", kind.recorded},
             {"single", kind.single},       {"packet8", kind.packet8},
-            {"packet16", kind.packet16}};
+            {"packet16", kind.packet16},   {"packet_fill", kind.packet_fill}};
 }
 
-/// [x0, y0, x1, y1, thread, first sample, start, end]
+/// [x0, y0, x1, y1, thread, first sample, start, end, CPU seconds, samples]
 Json to_object(const TileReport& tile) {
-    return {tile.rect.x0, tile.rect.y0,      tile.rect.x1, tile.rect.y1,
-            tile.thread,  tile.first_sample, tile.start,   tile.end};
+    return {tile.rect.x0,      tile.rect.y0, tile.rect.x1, tile.rect.y1,     tile.thread,
+            tile.first_sample, tile.start,   tile.end,     tile.cpu_seconds, tile.samples};
 }
 
 Json to_object(const TileCost& tile) {
-    return {{"rect", window(tile.rect)}, {"seconds", tile.seconds}, {"share", tile.share}};
+    return {{"rect", window(tile.rect)},
+            {"cpu_seconds", tile.cpu_seconds},
+            {"cpu_seconds_per_sample", tile.cpu_seconds_per_sample},
+            {"share", tile.share}};
+}
+
+Json to_object(const LampReport& lamp) {
+    return {{"name", lamp.name}, {"shadow_rays", std::round(lamp.shadow_rays)}, {"blocked", std::round(lamp.blocked)}};
+}
+
+Json to_object(const EarlierRun& run) {
+    return {{"integrator", run.integrator},
+            {"threads", run.threads},
+            {"cpu_seconds_per_sample", run.cpu_seconds_per_sample}};
+}
+
+Json to_object(const EarlierProfile& profile) {
+    return {{"file", profile.file},
+            {"created", profile.created},
+            {"program", profile.program},
+            {"runs", array_of(profile.runs)}};
+}
+
+Json to_object(const SceneHitsReport& hits) {
+    return {{"materials", counted(hits.materials, "hits")},
+            {"objects", counted(hits.objects, "hits")},
+            {"textures", counted(hits.textures, "hits")},
+            {"lamps", array_of(hits.lamps)}};
 }
 
 Json to_object(const LongPathReport& path) {
@@ -97,39 +129,42 @@ Json to_object(const LongPathReport& path) {
 }
 
 Json to_object(const ProfileRun& run) {
-    return {
-        {"integrator", run.integrator},
-        {"threads", run.threads},
-        {"spp", run.spp},
-        {"seconds", run.seconds},
-        {"cpu_seconds", run.cpu_seconds},
-        {"instrumented_seconds", run.instrumented_seconds},
-        {"samples", run.samples},
-        {"samples_per_second", samples_per_second(run)},
-        {"rays", run.rays},
-        {"rays_per_second", rays_per_second(run)},
-        {"efficiency_single", run.efficiency_single},
-        {"efficiency_best", run.efficiency_best},
-        {"parallel_efficiency", run.parallel_efficiency},
-        {"load_imbalance", run.load_imbalance},
-        {"tracing_share", tracing_share(run)},
-        {"timing_share", run.timing_share},
-        {"kinds", array_of(run.kinds)},
-        {"stages", named(run.stages, "seconds")},
-        {"endings", counted(run.eye_paths.endings, "paths")},
-        {"path_lengths", run.eye_paths.lengths},
-        {"light_endings", counted(run.light_paths.endings, "paths")},
-        {"light_path_lengths", run.light_paths.lengths},
-        {"longest", array_of(run.longest)},
-        {"shadow_unoccluded", run.shadow_unoccluded},
-        {"light_sampling_used", run.light_sampling_used},
-        {"bsdf_met_light", run.bsdf_met_light},
-        {"bsdf_absorbed", run.bsdf_absorbed},
-        {"hardware",
-         {{"counters", counted(run.hardware.values, "count")}, {"unavailable", known(run.hardware.unavailable)}}},
-        {"heat_map", {{"file", known(run.heat_map)}, {"key", heat_map_key(run)}, {"seconds_high", run.heat_map_high}}},
-        {"expensive_tiles", array_of(most_expensive_tiles(run, kExpensiveTiles))},
-        {"tiles", array_of(run.tiles)}};
+    return {{"integrator", run.integrator},
+            {"threads", run.threads},
+            {"spp", run.spp},
+            {"seconds", run.seconds},
+            {"cpu_seconds", run.cpu_seconds},
+            {"cpu_seconds_per_sample", cpu_seconds_per_sample(run)},
+            {"instrumented_seconds", run.instrumented_seconds},
+            {"samples", run.samples},
+            {"samples_per_second", samples_per_second(run)},
+            {"rays", run.rays},
+            {"rays_per_second", rays_per_second(run)},
+            {"efficiency_single", run.efficiency_single},
+            {"efficiency_best", run.efficiency_best},
+            {"parallel_efficiency", run.parallel_efficiency},
+            {"load_imbalance", run.load_imbalance},
+            {"tracing_share", tracing_share(run)},
+            {"timing_share", run.timing_share},
+            {"kinds", array_of(run.kinds)},
+            {"stages", named(run.stages, "seconds")},
+            {"advice", advice(run)},
+            {"scene_hits", to_object(run.scene_hits)},
+            {"endings", counted(run.eye_paths.endings, "paths")},
+            {"path_lengths", run.eye_paths.lengths},
+            {"light_endings", counted(run.light_paths.endings, "paths")},
+            {"light_path_lengths", run.light_paths.lengths},
+            {"longest", array_of(run.longest)},
+            {"shadow_unoccluded", run.shadow_unoccluded},
+            {"light_sampling_used", run.light_sampling_used},
+            {"bsdf_met_light", run.bsdf_met_light},
+            {"bsdf_absorbed", run.bsdf_absorbed},
+            {"hardware",
+             {{"counters", counted(run.hardware.values, "count")}, {"unavailable", known(run.hardware.unavailable)}}},
+            {"heat_map",
+             {{"file", known(run.heat_map)}, {"key", heat_map_key(run)}, {"cpu_seconds_high", run.heat_map_high}}},
+            {"expensive_tiles", array_of(most_expensive_tiles(run, kExpensiveTiles))},
+            {"tiles", array_of(run.tiles)}};
 }
 
 Json to_object(const ComparedFigure& figure) {
@@ -215,6 +250,7 @@ std::string to_json(const ProfileReport& report) {
                   {"notes", report.notes},
                   {"against", report.against ? to_object(*report.against) : Json()},
                   {"accelerators", report.accelerators ? accelerators_object(*report.accelerators) : Json()},
+                  {"history", array_of(report.history)},
                   {"runs", array_of(report.runs)}});
 }
 

@@ -36,6 +36,24 @@ struct RayKindReport {
     double packet8 = 0.0;
     double packet16 = 0.0;
     double hit_share = std::numeric_limits<double>::quiet_NaN();  ///< share of the rays that met something, [0, 1]
+    /// Share of the lanes of packets of 16 that the recorded rays fill, [0, 1].
+    double packet_fill = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Shadow rays to one lamp, by the name of the object whose surface they end at.
+struct LampReport {
+    std::string name{};
+    double shadow_rays = 0.0;
+    double blocked = 0.0;  ///< shadow rays of these that met something before
+};
+
+/// What rays met, by names of the scene, the most first: estimates from the rays that were recorded. Times are not
+/// shared out so, as paths of many materials are traced together.
+struct SceneHitsReport {
+    std::vector<NamedValue> materials{};
+    std::vector<NamedValue> objects{};
+    std::vector<NamedValue> textures{};  ///< hits on materials that name the image
+    std::vector<LampReport> lamps{};
 };
 
 /// A tile of one pass.
@@ -45,6 +63,8 @@ struct TileReport {
     std::uint32_t first_sample = 0;
     double start = 0.0;  ///< since the run began
     double end = 0.0;
+    double cpu_seconds = 0.0;  ///< processor time of its thread
+    std::uint64_t samples = 0;
 };
 
 /// How paths of one kind end, and how long they get.
@@ -78,8 +98,10 @@ struct ProfileRun {
     std::uint64_t samples = 0;          ///< samples of one repetition
     std::uint64_t rays = 0;
     std::vector<RayKindReport> kinds{};  ///< kinds of rays that the integrator traces
-    std::vector<NamedValue> stages{};    ///< seconds of all threads, in the order of the wave; "other" is the last
-    double timing_share = 0.0;           ///< share of the threads' time that time stamps themselves took, [0, 1]
+    int light_samples = 1;               ///< lights that are sampled at what the eye sees directly
+    SceneHitsReport scene_hits{};
+    std::vector<NamedValue> stages{};  ///< seconds of all threads, in the order of the wave; "other" is the last
+    double timing_share = 0.0;         ///< share of the threads' time that time stamps themselves took, [0, 1]
     /// Time that bare Embree takes for exactly these rays over the time that the render took, medians of the
     /// repetitions: as single rays, and in the form that is fastest for each kind.
     double efficiency_single = std::numeric_limits<double>::quiet_NaN();
@@ -96,8 +118,8 @@ struct ProfileRun {
     double bsdf_met_light = std::numeric_limits<double>::quiet_NaN();  ///< share of BSDF samples whose rays met light
     double bsdf_absorbed = std::numeric_limits<double>::quiet_NaN();   ///< share of BSDF samples of weight zero
     HardwareCounters hardware{};
-    std::string heat_map{};  ///< name of the EXR beside the report: rays per pixel and seconds per sample
-    /// Seconds of a sample that the last colour of its picture stands for; the first is 0.
+    std::string heat_map{};  ///< name of the EXR beside the report: rays per pixel and CPU seconds per sample
+    /// CPU seconds of a sample that the last colour of its picture stands for; the first is 0.
     double heat_map_high = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -112,6 +134,20 @@ struct BvhReport {
 
 /// Numbers the format of profile.json; it changes when the meaning of a key does.
 inline constexpr int kProfileFormat = 2;
+
+/// A run of an earlier profile.
+struct EarlierRun {
+    std::string integrator{};
+    int threads = 1;
+    double cpu_seconds_per_sample = 0.0;  ///< median of the repetitions
+};
+
+struct EarlierProfile {
+    std::string file{};
+    std::string created{};
+    std::string program{};
+    std::vector<EarlierRun> runs{};
+};
 
 struct ProfileReport {
     std::string program{};
@@ -138,6 +174,7 @@ struct ProfileReport {
     std::vector<ProfileRun> runs{};  ///< by integrator, then by threads
     std::optional<AcceleratorReport> accelerators{};
     std::optional<ProfileComparison> against{};
+    std::vector<EarlierProfile> history{};  ///< profiles of the same work, the oldest first
 };
 
 /// docs/profile.md describes it.
@@ -146,7 +183,11 @@ struct ProfileReport {
 /// Tables for a terminal, of at most 100 columns.
 [[nodiscard]] std::string to_table(const ProfileReport& report);
 
-/// The tiles of each thread in the Trace Event Format of Chrome, which Perfetto opens: one process for each run.
+/// Comma-separated values with a line of names: one row for each figure of each run. docs/profile.md lists the columns.
+[[nodiscard]] std::string to_csv(const ProfileReport& report);
+
+/// The start of the process, and the tiles and waits of each thread with the sums of stages, in the Trace Event Format
+/// of Chrome, which Perfetto opens: one process for the start and for each run.
 [[nodiscard]] std::string to_chrome_trace(const ProfileReport& report);
 
 /// PNG files by keys, which `heat_map_key` makes.

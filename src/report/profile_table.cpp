@@ -1,4 +1,5 @@
 #include "report/human_units.h"
+#include "report/profile_advice.h"
 #include "report/profile_figures.h"
 #include "report/profile_report.h"
 #include "report/text_table.h"
@@ -19,6 +20,7 @@ constexpr std::size_t kIndent = 2;
 constexpr int kBar = 40;  // characters that a stage takes that takes all the time
 constexpr std::size_t kTilesInTable = 3;
 constexpr std::size_t kLongestPaths = 3;
+constexpr std::size_t kNamesInTable = 3;
 
 /// Draws `share`, clamped to [0, 1], as a bar of '#'; all bars have one width, as columns are flush right.
 std::string bar(double share) {
@@ -35,7 +37,8 @@ std::string rate_or_none(double rays_per_second) {
 }
 
 std::string overview(const std::vector<ProfileRun>& runs) {
-    Rows rows{{"", "threads", "spp", "time", "rays/s", "samples/s", "efficiency", "best", "parallel", "imbalance"}};
+    Rows rows{
+        {"", "threads", "spp", "time", "rays/s", "samples/s", "eff. single", "eff. best", "parallel", "imbalance"}};
     for (const ProfileRun& run : runs)
         rows.push_back({run.integrator, fmt::format("{}", run.threads), fmt::format("{}", run.spp),
                         human_seconds(median(run.seconds)), human_count(rays_per_second(run)),
@@ -107,8 +110,8 @@ std::string expensive_tiles(const ProfileRun& run) {
     std::string places;
     for (const TileCost& tile : most_expensive_tiles(run, kTilesInTable))
         places += fmt::format("{}({}, {}) {} ({})", places.empty() ? "" : "; ", tile.rect.x0, tile.rect.y0,
-                              human_seconds(tile.seconds), human_percent(tile.share));
-    return places.empty() ? "" : wrapped("  most expensive tiles: " + places, kIndent + 2);
+                              human_seconds(tile.cpu_seconds), human_percent(tile.share));
+    return places.empty() ? "" : wrapped("  most expensive tiles, CPU time: " + places, kIndent + 2);
 }
 
 std::string hardware(const ProfileRun& run) {
@@ -122,11 +125,38 @@ std::string hardware(const ProfileRun& run) {
     return wrapped("  hardware counters: " + counts, kIndent + 2);
 }
 
+std::string hits(const SceneHitsReport& report) {
+    std::string text;
+    const auto add = [&text](const char* title, const std::vector<NamedValue>& values) {
+        std::string names;
+        for (std::size_t i = 0; i < std::min(kNamesInTable, values.size()); ++i)
+            names += fmt::format("{}{} {}", names.empty() ? "" : "; ", values[i].name,
+                                 human_percent(rate(values[i].value, sum_of(values))));
+        if (!names.empty()) text += wrapped(fmt::format("  hits by {}: {}", title, names), kIndent + 2);
+    };
+    add("material", report.materials);
+    add("object", report.objects);
+    add("texture", report.textures);
+    std::string lamps;
+    for (std::size_t i = 0; i < std::min(kNamesInTable, report.lamps.size()); ++i)
+        lamps += fmt::format("{}{} {}, {} blocked", lamps.empty() ? "" : "; ", report.lamps[i].name,
+                             human_count(report.lamps[i].shadow_rays),
+                             human_percent(rate(report.lamps[i].blocked, report.lamps[i].shadow_rays)));
+    return text + (lamps.empty() ? "" : wrapped("  shadow rays by lamp: " + lamps, kIndent + 2));
+}
+
+std::string advice_text(const ProfileRun& run) {
+    std::string text;
+    for (const std::string& sentence : advice(run)) text += wrapped("  * " + sentence, kIndent + 2);
+    return text.empty() ? text : "  what to change:\n" + text;
+}
+
 std::string run_text(const ProfileRun& run) {
     std::string text = fmt::format("\n{}, {} thread{}\n", run.integrator, run.threads, run.threads == 1 ? "" : "s");
     if (!run.kinds.empty()) text += rays(run) + '\n';
     if (!run.stages.empty()) text += stages(run) + '\n';
-    return text + shares(run) + '\n' + paths(run) + expensive_tiles(run) + hardware(run);
+    return text + shares(run) + '\n' + paths(run) + expensive_tiles(run) + hits(run.scene_hits) + hardware(run) +
+           advice_text(run);
 }
 
 std::string phases(const ProfileReport& report) {
@@ -166,8 +196,8 @@ std::string to_table(const ProfileReport& report) {
                                 report.ray_tracer));
     text += '\n' + overview(report.runs);
     text += wrapped(
-        "efficiency: time that bare Embree takes for the same rays, one by one, over that of the render; best: "
-        "the same in packets where those are faster",
+        "efficiency: time that bare Embree takes for the same rays over that of the render, single: one by one; best: "
+        "in packets where those are faster; parallel: speed over that of one thread times the threads",
         kIndent);
     text += wrapped(
         "rays: renderer/s are rays per second of one thread while it traces them; single and packets, bare Embree's",

@@ -20,6 +20,7 @@ std::vector<std::filesystem::path> prepare_directory(const std::filesystem::path
     std::vector<std::filesystem::path> files;
     for (const std::string& name : names) {
         files.push_back(directory / name);
+        std::filesystem::create_directories(files.back().parent_path(), error);  // what is missing, the next line says
         require_writable(files.back());
     }
     require_inputs_kept("--output", files, inputs);

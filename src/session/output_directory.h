@@ -8,8 +8,8 @@
 
 namespace etendue {
 
-/// Makes `directory`, which --output names, if it is missing, and returns its files of these names. Throws IoError if
-/// they could not be written, ReplacedInput if one of them is one of `inputs`.
+/// Makes `directory`, which --output names, and those below that are in `names`, and returns its files of these names.
+/// Throws IoError if they could not be written, ReplacedInput if one of them is one of `inputs`.
 [[nodiscard]] std::vector<std::filesystem::path> prepare_directory(const std::filesystem::path& directory,
                                                                    const std::vector<std::string>& names,
                                                                    std::span<const std::filesystem::path> inputs);

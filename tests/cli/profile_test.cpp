@@ -56,7 +56,7 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.out.find("path, 2 threads"), std::string::npos) << result.out;
     EXPECT_EQ(list(work_ / "out"), (Names{"heat-bdpt-2.exr", "heat-bdpt-2.png", "heat-path-2.exr", "heat-path-2.png",
-                                          "index.html", "profile.json", "trace.json"}));
+                                          "index.html", "profile.csv", "profile.json", "trace.json"}));
     const json report = this->report();
     ASSERT_EQ(report["runs"].size(), 4u);
     for (const json& run : report["runs"]) {
@@ -79,6 +79,18 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     for (const json& kind : report["runs"][2]["kinds"]) kinds.push_back(kind["kind"]);
     EXPECT_EQ(kinds, (Names{"camera", "bounce", "shadow", "light-subpath", "light-to-camera"}))
         << "its paths are too short for connections";
+    // The scene has one surface and a lamp without any.
+    const json& hits = report["runs"][0]["scene_hits"];
+    ASSERT_EQ(hits["materials"].size(), 1u);
+    EXPECT_EQ(hits["objects"].size(), 1u);
+    EXPECT_GT(hits["materials"][0]["hits"], 0);
+    ASSERT_EQ(hits["lamps"].size(), 1u);
+    EXPECT_EQ(hits["lamps"][0]["name"], "lights without a surface");
+    for (const json& kind : report["runs"][0]["kinds"]) {
+        if (kind["kind"] == "shadow") {
+            EXPECT_EQ(hits["lamps"][0]["shadow_rays"], kind["rays"]);
+        }
+    }
     EXPECT_GT(report["load"]["first_pixel_seconds"], 0.0);
     Names phases;
     for (const json& phase : report["load"]["phases"]) {
@@ -102,7 +114,7 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     const json trace = json::parse(read_file(work_ / "out/trace.json"));
     EXPECT_FALSE(trace["traceEvents"].empty());
     const ChannelImage heat = read_channels(work_ / "out/heat-path-2.exr");
-    EXPECT_EQ(heat.channel_names, (Names{"rays", "seconds"}));
+    EXPECT_EQ(heat.channel_names, (Names{"cpu_seconds", "rays"}));
     EXPECT_EQ(heat.pixels.width, 16);
     EXPECT_EQ(heat.pixels.height, 12);
     for (const float value : heat.pixels.pixels) EXPECT_GT(value, 0.0f);
@@ -221,6 +233,23 @@ TEST_F(Profile, MediansOfAnEvenNumberAreMeansOfTwo) {
     EXPECT_NEAR(report["runs"][1]["parallel_efficiency"].get<double>(), 0.5 * sum, 1e-9);
 }
 
+TEST_F(Profile, ShowsEarlierProfilesOfTheSameWork) {
+    const Names arguments{"--spp", "1", "--repeat", "1", "--threads", "1", "--integrators", "path", "--quiet"};
+    ASSERT_EQ(profile(arguments, "before").exit_code, 0);
+    Names now = arguments;
+    now.insert(now.end(), {"--history", "before/profile.json"});
+    ASSERT_EQ(profile(now).exit_code, 0);
+    const json report = this->report();
+    ASSERT_EQ(report["history"].size(), 1u);
+    EXPECT_EQ(report["history"][0]["file"], "before/profile.json");
+    EXPECT_EQ(report["history"][0]["runs"][0]["cpu_seconds_per_sample"],
+              this->report("before")["runs"][0]["cpu_seconds_per_sample"]);
+    now.insert(now.end(), {"--max-depth", "2"});
+    const ProgramResult other = profile(now);
+    EXPECT_EQ(other.exit_code, 3) << "of other work";
+    EXPECT_NE(other.err.find("before/profile.json"), std::string::npos) << other.err;
+}
+
 TEST_F(Profile, RemovesHeatMapsOfEarlierRuns) {
     fs::create_directories(work_ / "out/heat-path-9.exr");
     for (const char* name : {"heat-bdpt-12.exr", "heat-bdpt-12.png", "heat-mine-1.exr", "heat-path-.exr",
@@ -230,7 +259,7 @@ TEST_F(Profile, RemovesHeatMapsOfEarlierRuns) {
               0);
     EXPECT_EQ(list(work_ / "out"),
               (Names{"heat-mine-1.exr", "heat-path-.exr", "heat-path-1.exr", "heat-path-1.png", "heat-path-1b.png",
-                     "heat-path-2.txt", "heat-path-9.exr", "index.html", "profile.json", "trace.json"}));
+                     "heat-path-2.txt", "heat-path-9.exr", "index.html", "profile.csv", "profile.json", "trace.json"}));
 }
 
 TEST_F(Profile, NeverOverwritesItsBaseline) {

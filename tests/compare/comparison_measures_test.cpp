@@ -11,8 +11,13 @@ namespace {
 
 TEST(FindRegions, AreWhereErrorsDifferMost) {
     std::vector<ImageF> maps(2, ImageF(48, 48, 1));
-    maps[1].pixel(20, 30)[0] = 5.0f;
-    maps[0].pixel(40, 2)[0] = 7.0f;
+    const auto fill = [](ImageF& map, const PixelRect& block, float error) {
+        for (int y = block.y0; y < block.y1; ++y)
+            for (int x = block.x0; x < block.x1; ++x) map.pixel(x, y)[0] = error;
+    };
+    fill(maps[1], {16, 24, 24, 32}, 5.0f);
+    fill(maps[0], {40, 0, 48, 8}, 7.0f);
+    maps[0].pixel(2, 2)[0] = 1e6f;  // a firefly
     const std::vector<NamedRegion> regions = find_regions(maps, {100, 200, 148, 248});
     ASSERT_EQ(regions.size(), 3u);
     EXPECT_EQ(regions[0].pixels, (PixelRect{140, 200, 148, 208}));
@@ -22,14 +27,30 @@ TEST(FindRegions, AreWhereErrorsDifferMost) {
 
 TEST(FindRegions, LeaveOutWhatIsNoNumber) {
     std::vector<ImageF> maps(2, ImageF(48, 48, 1));
-    for (int block = 0; block < 36; ++block)
-        maps[1].pixel(8 * (block % 6), 8 * (block / 6))[0] = block % 3 == 0   ? std::numeric_limits<float>::quiet_NaN()
-                                                             : block % 3 == 1 ? std::numeric_limits<float>::infinity()
-                                                                              : static_cast<float>(block);
+    for (int i = 0; i < 48 * 48; ++i) {
+        const int block = 6 * (i / 48 / 8) + i % 48 / 8;
+        maps[1].pixels[static_cast<std::size_t>(i)] = block % 3 == 0   ? std::numeric_limits<float>::quiet_NaN()
+                                                      : block % 3 == 1 ? std::numeric_limits<float>::infinity()
+                                                                       : static_cast<float>(block);
+    }
     const std::vector<NamedRegion> regions = find_regions(maps, {0, 0, 48, 48});
     ASSERT_EQ(regions.size(), 3u);
     EXPECT_EQ(regions[0].pixels, (PixelRect{40, 40, 48, 48}));
     EXPECT_EQ(regions[1].pixels, (PixelRect{16, 40, 24, 48}));
+}
+
+TEST(UnequalTimes, AreThoseMoreThanATenthApart) {
+    ComparisonReport report;
+    report.seconds = 2.0;
+    report.variants = {{.name = "path"}, {.name = "bdpt"}};
+    report.variants[0].cpu_seconds.values = {2.0, 2.0};
+    report.variants[1].cpu_seconds.values = {2.1, 2.2};
+    report.variants[1].seconds.values = {9.0, 9.0};
+    EXPECT_EQ(unequal_times(report), "");
+    report.variants[1].cpu_seconds.values = {2.2, 2.4};
+    EXPECT_NE(unequal_times(report).find("'bdpt' 2.3 s, 15% more"), std::string::npos) << unequal_times(report);
+    report.seconds.reset();
+    EXPECT_EQ(unequal_times(report), "") << "of equal samples times need not be equal";
 }
 
 }  // namespace

@@ -284,6 +284,18 @@ TEST(AgreementMap, ShowsTheLargestZOfEachBlock) {
     EXPECT_NEAR(map.pixel(7, 3)[0], 2.0, 1e-5);
 }
 
+TEST(SmallestDifference, IsSeenNineTimesInTen) {
+    // One test of 5%: 1.959964 + 1.281552 standard errors.
+    EXPECT_NEAR(smallest_difference(0.01, 0.05, 1), 0.03241516, 1e-8);
+    std::mt19937 generator(7);
+    const double difference = smallest_difference(1.0, 0.01, 100);
+    std::normal_distribution<double> estimate(difference, 1.0);
+    int seen = 0;
+    for (int i = 0; i < 20000; ++i) seen += std::abs(estimate(generator)) > critical_z(0.01, 100) ? 1 : 0;
+    // Within 5 standard deviations of the binomial distribution.
+    EXPECT_NEAR(seen / 20000.0, kPower, 5.0 * std::sqrt(0.09 / 20000.0));
+}
+
 TEST(CriticalZ, IsThatOfTheNormalDistribution) {
     EXPECT_NEAR(critical_z(0.05, 1), 1.959964, 1e-6);
     EXPECT_NEAR(critical_z(0.01, 1), 2.575829, 1e-6);

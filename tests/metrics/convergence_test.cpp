@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -33,7 +34,17 @@ TEST(LogLogSlope, LeavesOutWhatHasNoLogarithm) {
     EXPECT_NEAR(log_log_slope(points).value(), -1.0, 1e-12);
 }
 
-TEST(LogLogSlope, NeedsTwoPlaces) {
+TEST(LogLogSlope, IsOfALineThatFits) {
+    std::vector<ErrorAfter> points = power_law(1.0, -1.0);
+    for (ErrorAfter& point : points) point.error += 0.1;
+    EXPECT_FALSE(log_log_slope(points)) << "errors that stop falling, as of light that is missing";
+    points = power_law(1.0, -1.0);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].error *= i % 2 == 0 ? 1.1 : 1.0 / 1.1;
+    EXPECT_NEAR(log_log_slope(points).value(), -1.0, 0.05) << "scatter of 10%";
+    EXPECT_FALSE(log_log_slope(std::span(points).first(2))) << "a line through two points fits whatever they are";
+}
+
+TEST(LogLogSlope, NeedsSeveralPlaces) {
     EXPECT_FALSE(log_log_slope({}));
     EXPECT_FALSE(log_log_slope(std::vector<ErrorAfter>{{1.0, 2.0}}));
     EXPECT_FALSE(log_log_slope(std::vector<ErrorAfter>{{1.0, 2.0}, {1.0, 3.0}}));

@@ -30,10 +30,10 @@ ComparisonReport small_comparison() {
     VariantReport path{.name = "path", .options = "--integrator path", .seeds = {4, 6, 8}, .spp = 7};
     path.seconds.values = {1.0, 2.0, 3.0};
     path.errors["relmse"].values = {0.5, 0.25, 0.75};
-    path.convergence.push_back({.spp = 1, .seconds = 0.5, .errors = {{"relmse", {{2.0, 4.0, 6.0}}}}});
+    path.convergence.push_back({.spp = 1, .seconds = {{0.4, 0.6}}, .errors = {{"relmse", {{2.0, 4.0, 6.0}}}}});
     path.slopes["relmse"] = {.spp = -1.0};
     report.variants = {path, {.name = "bdpt"}};
-    PairReport pair{.a = "path", .b = "bdpt", .ratios = {{"relmse", 12.0}}};
+    PairReport pair{.a = "path", .b = "bdpt", .ratios = {{"relmse", {12.0, 10.0, 14.4}}}};
     pair.a_reaches_b = ReachedError{30.0, true};
     pair.agreement =
         BlockAgreement{.blocks_agree = true, .means_agree = false, .p_value = 0.3, .tests = 9, .worst = {}};
@@ -56,7 +56,7 @@ TEST(SeedValues, AreSummedUp) {
 
 TEST(ComparisonJson, HoldsWhatWasMeasured) {
     const Json json = Json::parse(to_json(small_comparison()));
-    EXPECT_EQ(json["format"], 2);
+    EXPECT_EQ(json["format"], 3);
     EXPECT_EQ(json["scene"]["crop"], Json({1, 2, 21, 22}));
     EXPECT_EQ(json["settings"]["seconds"], 2.0);
     EXPECT_TRUE(json["settings"]["spp"].is_null());

@@ -27,13 +27,35 @@ inline ProfileRun made_up_run(int threads, std::vector<double> cpu_seconds) {
                  {.kind = "shadow", .rays = 5000, .seconds = 1.0}};
     run.stages = {{"generate", 0.5}, {"intersect", 0.5}, {"occluded", 1.0}, {"other", 1.0}};
     run.efficiency_single = 0.625;
-    run.tiles = {{.rect = {0, 0, 32, 32}, .thread = 0, .first_sample = 0, .start = 0.0, .end = 0.25},
-                 {.rect = {32, 0, 64, 32}, .thread = 1, .first_sample = 0, .start = 0.0, .end = 0.5},
-                 {.rect = {0, 0, 32, 32}, .thread = 1, .first_sample = 1, .start = 0.5, .end = 1.25}};
+    run.tiles = {{.rect = {0, 0, 32, 32},
+                  .thread = 0,
+                  .first_sample = 0,
+                  .start = 0.0,
+                  .end = 0.25,
+                  .cpu_seconds = 0.2,
+                  .samples = 1000},
+                 {.rect = {32, 0, 64, 32},
+                  .thread = 1,
+                  .first_sample = 0,
+                  .start = 0.0,
+                  .end = 0.5,
+                  .cpu_seconds = 0.4,
+                  .samples = 1000},
+                 {.rect = {0, 0, 32, 32},
+                  .thread = 1,
+                  .first_sample = 1,
+                  .start = 0.5,
+                  .end = 1.25,
+                  .cpu_seconds = 0.6,
+                  .samples = 1000}};
     run.eye_paths = {.endings = {{"left the scene", 750.0}, {"roulette", 250.0}}, .lengths = {0, 600, 300, 100}};
     run.light_paths = {.endings = {{"left the scene", 300.0}, {"roulette", 100.0}}, .lengths = {0, 300, 0, 100}};
     run.longest = {{.x = 3, .y = 4, .sample = 5, .vertices = 9}};
     run.shadow_unoccluded = 0.5;
+    run.scene_hits = {.materials = {{"red", 900.0}, {"green", 100.0}},
+                      .objects = {{"box", 1000.0}},
+                      .textures = {},
+                      .lamps = {{"lamp", 4000.0, 3000.0}, {"lights without a surface", 1000.0, 1000.0}}};
     run.hardware.values = {{"cycles", 2e9}, {"instructions", 3e9}};
     run.heat_map = "heat-path-2.exr";
     return run;

@@ -1,5 +1,6 @@
 #include "report/profile_report.h"
 
+#include "report/profile_advice.h"
 #include "report/profile_figures.h"
 #include "report/profile_fixture.h"
 #include "report/text_table.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -34,12 +36,13 @@ TEST(ProfileFigures, FollowFromWhatWasMeasured) {
     EXPECT_TRUE(std::isnan(rate(1.0, 0.0)));
 }
 
-TEST(ProfileFigures, TilesCostWhatAllTheirPassesDo) {
+TEST(ProfileFigures, TilesCostTheMedianOfTheirPassesInCpuTime) {
     const ProfileRun run = made_up_profile().runs[0];
     const std::vector<TileCost> tiles = most_expensive_tiles(run, 9);
     ASSERT_EQ(tiles.size(), 2u);
     EXPECT_EQ(tiles[0].rect, (PixelRect{0, 0, 32, 32}));
-    EXPECT_EQ(tiles[0].seconds, 1.0);
+    EXPECT_DOUBLE_EQ(tiles[0].cpu_seconds, 0.8) << "twice the median of the passes' 0.2 and 0.6";
+    EXPECT_DOUBLE_EQ(tiles[0].cpu_seconds_per_sample, 4e-4);
     EXPECT_DOUBLE_EQ(tiles[0].share, 2.0 / 3.0);
     EXPECT_EQ(tiles[1].rect, (PixelRect{32, 0, 64, 32}));
     EXPECT_EQ(most_expensive_tiles(run, 1).size(), 1u);
@@ -76,7 +79,7 @@ TEST(ProfileJson, HoldsWhatWasMeasured) {
     EXPECT_EQ(run["kinds"][0]["rays_per_second"], 2000.0);
     EXPECT_EQ(run["stages"][2], Json({{"name", "occluded"}, {"seconds", 1.0}}));
     EXPECT_EQ(run["tracing_share"], 0.5);
-    EXPECT_EQ(run["tiles"][2], Json({0, 0, 32, 32, 1, 1, 0.5, 1.25}));
+    EXPECT_EQ(run["tiles"][2], Json({0, 0, 32, 32, 1, 1, 0.5, 1.25, 0.6, 1000}));
     EXPECT_EQ(run["expensive_tiles"][0]["rect"], Json({0, 0, 32, 32}));
     EXPECT_EQ(run["path_lengths"], Json({0, 600, 300, 100}));
     EXPECT_EQ(run["longest"][0]["vertices"], 9);
@@ -149,8 +152,8 @@ TEST(ProfileTable, SaysWhereTheTimeGoes) {
     const std::string table = to_table(made_up_profile());
     for (const char* text :
          {"path, 2 threads", "camera", "intersect", "16.7%", "########", "0.62", "1.00 MiB",
-          "most expensive tiles: (0, 0) 1.00 s (66.7%)", "9 vertices at (3, 4), sample 5", "cycles 2.00 G", "875 ms",
-          "2.50 M", "12.5", "64 bytes a triangle", "2 processors at 2 memory nodes"})
+          "most expensive tiles, CPU time: (0, 0) 800 ms (66.7%)", "9 vertices at (3, 4), sample 5", "cycles 2.00 G",
+          "875 ms", "2.50 M", "12.5", "64 bytes a triangle", "2 processors at 2 memory nodes"})
         EXPECT_NE(table.find(text), std::string::npos) << text << " is missing in\n" << table;
     EXPECT_EQ(table.find("nan"), std::string::npos) << table;
 }
@@ -178,23 +181,83 @@ TEST(TextTable, AlignsColumnsAndBreaksLines) {
 TEST(ProfileTrace, NamesRunsAndTheirThreads) {
     const Json trace = Json::parse(to_chrome_trace(made_up_profile()));
     std::vector<std::string> processes, threads;
-    int tiles = 0;
+    std::map<std::string, int> of_category;
+    Json last;
     for (const Json& event : trace["traceEvents"]) {
         if (event["name"] == "process_name") processes.push_back(event["args"]["name"]);
         if (event["name"] == "thread_name" && event["pid"] == 2) threads.push_back(event["args"]["name"]);
         if (event["ph"] != "X") continue;
-        ++tiles;
-        for (const char* key : {"name", "pid", "tid", "ts", "dur", "args"})
+        if (event["cat"] == "tile") last = event;
+        ++of_category[event["cat"]];
+        for (const char* key : {"name", "pid", "tid", "ts", "dur"})
             EXPECT_TRUE(event.contains(key)) << key << ", which every complete event must have";
     }
-    EXPECT_EQ(processes, (std::vector<std::string>{"path, 1 thread", "path, 2 threads"}));
-    EXPECT_EQ(threads, (std::vector<std::string>{"thread 0", "thread 1"}));
-    EXPECT_EQ(tiles, 6);
-    const Json& last = trace["traceEvents"].back();
+    EXPECT_EQ(processes, (std::vector<std::string>{"start", "path, 1 thread", "path, 2 threads"}));
+    EXPECT_EQ(threads, (std::vector<std::string>{"thread 0", "thread 1", "sums of stages, all threads"}));
+    // Thread 0 waits from 0.25 s on; thread 1 never does.
+    EXPECT_EQ(of_category, (std::map<std::string, int>{{"load", 2}, {"tile", 6}, {"stage", 8}, {"wait", 2}}));
     EXPECT_EQ(last["ts"], 5e5) << "microseconds";
     EXPECT_EQ(last["dur"], 7.5e5);
     EXPECT_EQ(last["args"]["rect"], Json({0, 0, 32, 32}));
     EXPECT_EQ(last["args"]["first sample"], 1);
+}
+
+TEST(ProfileTrace, HasWaitsWhereAThreadHasNoTile) {
+    const Json trace = Json::parse(to_chrome_trace(made_up_profile()));
+    const auto wait =
+        std::ranges::find_if(trace["traceEvents"], [](const Json& event) { return event["name"] == "wait"; });
+    ASSERT_NE(wait, trace["traceEvents"].end());
+    EXPECT_EQ((*wait)["tid"], 0);
+    EXPECT_EQ((*wait)["ts"], 2.5e5);
+    EXPECT_EQ((*wait)["dur"], 1e6);
+}
+
+std::string advice_of(const ProfileRun& run) {
+    std::string text;
+    for (const std::string& sentence : advice(run)) text += sentence + "\n";
+    return text;
+}
+
+TEST(ProfileAdvice, SaysWhatTakesTheTimeAndWhatWouldChangeIt) {
+    ProfileRun run = made_up_profile().runs[0];
+    run.kinds[1].hit_share = 0.8;
+    EXPECT_NE(advice_of(run).find("shadow rays are 33.3% of the time; 80.0% of them are blocked, 75.0% of those on the "
+                                  "way to 'lamp'"),
+              std::string::npos)
+        << advice_of(run);
+    EXPECT_EQ(advice_of(run).find("--light-samples"), std::string::npos) << "there is one already";
+    run.light_samples = 4;
+    run.light_sampling_used = 0.5;
+    // Of 10000 samples three of four at 750 points; shadow rays and the choice of lights are a third of the time.
+    EXPECT_NE(advice_of(run).find("--light-samples 1 in place of 4 saves about 7.5%"), std::string::npos)
+        << advice_of(run);
+    run.kinds[0].packet_fill = 0.31;
+    EXPECT_NE(advice_of(run).find("camera rays are 16.7% of the time; their packets are 31.0% full\n"),
+              std::string::npos)
+        << advice_of(run);
+    // Tiles take 1.5 of 2.5 s, and 1.2 s of CPU time.
+    EXPECT_NE(advice_of(run).find("threads have no tile for 40.0% of their time"), std::string::npos) << advice_of(run);
+    EXPECT_EQ(advice_of(run).find("other programs"), std::string::npos) << "12%: " << advice_of(run);
+    run.tiles[2].cpu_seconds = 0.4;
+    EXPECT_NE(advice_of(run).find("took 20.0% of the threads' time"), std::string::npos) << advice_of(run);
+    EXPECT_TRUE(advice(ProfileRun{}).empty());
+}
+
+TEST(ProfileAdvice, WarnsWhereRepetitionsDisagree) {
+    ProfileRun run{.integrator = "path", .threads = 2, .cpu_seconds = {1.0, 1.05, 1.09}};
+    EXPECT_EQ(disagreement_of_repetitions(run), "");
+    run.cpu_seconds.push_back(1.2);
+    EXPECT_NE(disagreement_of_repetitions(run).find("took 1.00 s to 1.20 s of CPU time, 18.7% apart"),
+              std::string::npos)
+        << disagreement_of_repetitions(run);
+}
+
+TEST(ProfileCsv, HasALineForEachFigure) {
+    const std::string csv = to_csv(made_up_profile());
+    for (const char* line : {"box,2026-11-22T08:00:00Z,path,1,16,stage,occluded,1,thread s\n",
+                             "box,2026-11-22T08:00:00Z,path,2,16,material,red,900,hits\n",
+                             "box,2026-11-22T08:00:00Z,path,2,16,run,efficiency best,,\n"})
+        EXPECT_NE(csv.find(line), std::string::npos) << line << " in " << csv;
 }
 
 TEST(ProfileTrace, IsEmptyWithoutRuns) {

@@ -1,0 +1,81 @@
+#include "compare/comparison_classes.h"
+
+#include "loader/loader.h"
+#include "metrics/pixel_selection.h"
+#include "picture/aov_setup.h"
+#include "render/progressive_render.h"
+#include "session/interrupt.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr std::uint32_t kClassSamples = 16;
+
+/// The layers of `classes` of a few samples of `variant`, one channel each: luminance.
+std::vector<ImageF> light_of_classes(const std::filesystem::path& scene, const VariantRequest& request,
+                                     const Variant& variant, std::span<const std::string> classes,
+                                     const MeasureContext& context) {
+    SettingsOverrides overrides = request.request.overrides;
+    if (find_frames(scene)) overrides.frame = 0;
+    PreparedScene prepared = prepare_scene(scene, overrides);
+    prepared.scene.settings.aovs.clear();
+    for (const std::string& name : classes)
+        prepared.scene.settings.aovs.push_back({.name = name, .source = name, .is_float = {}});
+    const AovPlan plan = make_aov_plan(prepared.scene, prepared.problems);
+    for (const AovOutput& output : plan.outputs)
+        if (output.kind != AovKind::Layer)
+            throw SceneError({"--insets", {}}, fmt::format("'{}' is no layer of light", output.name));
+    RenderOptions options = variant.sampling;
+    options.aovs = plan.set;
+    ProgressiveRender render(*variant.world, *variant.integrator, options, context.threads);
+    std::vector<ImageF> layers;
+    if (!render.add_samples(kClassSamples, [] { return interrupt_requested().load(); })) return layers;
+    const Rgb weights = context.colors.luminance_weights(variant.settings.color.working_space);
+    for (const AovOutput& output : plan.outputs) {
+        const ImageF colors = resolve_layer(render.state().film, output).pixels;
+        ImageF& layer = layers.emplace_back(colors.width, colors.height, 1);
+        const auto channels = static_cast<std::size_t>(colors.channels);
+        for (std::size_t i = 0; i < layer.pixels.size(); ++i)
+            layer.pixels[i] = colors.pixels[i * channels] * weights.r + colors.pixels[i * channels + 1] * weights.g +
+                              colors.pixels[i * channels + 2] * weights.b;
+    }
+    return layers;
+}
+
+}  // namespace
+
+std::vector<NamedRegion> regions_of_classes(const std::filesystem::path& scene, const VariantRequest& request,
+                                            const Variant& variant, std::span<const std::string> classes,
+                                            const MeasureContext& context, std::vector<std::string>& notes) {
+    const PixelRect& window = variant.sampling.window;
+    std::vector<NamedRegion> regions;
+    const std::vector<ImageF> layers = light_of_classes(scene, request, variant, classes, context);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        ImageF trimmed = layers[i];
+        trim(trimmed);
+        double brightest = 0.0;
+        std::optional<PixelRect> found;
+        for (const PixelRect& block : whole_blocks(window)) {
+            const double mean =
+                mean_of(trimmed, {.region = moved_to(block, block.x0 - window.x0, block.y0 - window.y0)});
+            const bool is_free = std::ranges::find(regions, block, &NamedRegion::pixels) == regions.end();
+            if (!(mean > brightest) || !is_free) continue;
+            brightest = mean;
+            found = block;
+        }
+        if (found)
+            regions.push_back({classes[i], *found, false});
+        else
+            notes.push_back(fmt::format("the image has no light of the class '{}' to look at (--insets)", classes[i]));
+    }
+    return regions;
+}
+
+}  // namespace etendue

@@ -1,0 +1,164 @@
+#include "compare/comparison_files.h"
+
+#include "core/error.h"
+#include "core/write_file.h"
+#include "image/read_channels.h"
+#include "metrics/error_metrics.h"
+#include "output/exr_driver.h"
+#include "report/comparison_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDataFile = "data.csv";
+constexpr const char* kTablesFile = "tables.tex";
+constexpr const char* kPlotsDirectory = "plots";
+constexpr const char* kNoiseLayer = "noise";
+constexpr const char* kSeedsAttribute = "etendue:pooledSeeds";
+
+std::string plot_path(const std::string& name, const char* extension) {
+    return fmt::format("{}/{}.{}", kPlotsDirectory, name, extension);
+}
+
+constexpr std::array kPlotFormats{"svg", "pdf"};
+
+std::vector<std::string> plot_paths() {
+    std::vector<std::string> metrics;
+    for (const ErrorMetric metric : kErrorMetrics) metrics.emplace_back(name_of(metric));
+    std::vector<std::string> paths;
+    for (const std::string& name : convergence_plot_names(metrics))
+        for (const char* format : kPlotFormats) paths.push_back(plot_path(name, format));
+    return paths;
+}
+
+/// The frame of an image of the report's window, without the image.
+OutputFrame frame_of(const ComparisonReport& report) {
+    OutputFrame frame;
+    if (report.crop) {
+        frame.crop_x = report.crop->x0;
+        frame.crop_y = report.crop->y0;
+        frame.full_width = report.width;
+        frame.full_height = report.height;
+    }
+    frame.working_space = report.working_space;
+    frame.scene = report.scene;
+    frame.command = report.command;
+    return frame;
+}
+
+/// `name` as a part of a file's name: letters, digits and what no shell takes apart.
+std::string plain_name(const std::string& name) {
+    std::string result;
+    for (const char c : name) {
+        const bool is_plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
+        result += is_plain ? c : '_';
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<std::string> names_of_data_files() {
+    std::vector<std::string> names = plot_paths();
+    names.emplace_back(kDataFile);
+    names.emplace_back(kTablesFile);
+    return names;
+}
+
+void write_data_files(const fs::path& directory, const ComparisonReport& report) {
+    write_text(directory / kDataFile, to_csv(report));
+    write_text(directory / kTablesFile, to_tex(report));
+    std::error_code ignored;  // one that stays is only one too many
+    for (const std::string& path : plot_paths()) fs::remove(directory / path, ignored);
+    const std::vector<NamedPlot> plots = convergence_plots(report);
+    for (const NamedPlot& plot : plots) {
+        write_text(directory / plot_path(plot.name, "svg"), to_svg(plot.plot));
+        write_text(directory / plot_path(plot.name, "pdf"), to_pdf(plot.plot));
+    }
+    fs::remove(directory / kPlotsDirectory, ignored);  // if it is empty
+}
+
+void write_reference(const fs::path& path, const Reference& reference, const ComparisonReport& report,
+                     const ColorConfig& colors) {
+    OutputFrame frame = frame_of(report);
+    frame.pixels = reference.whole();
+    if (const ImageF* const variance = reference.variance()) {
+        OutputLayer noise{.name = kNoiseLayer, .channels = "RGB", .is_float = true, .pixels = *variance};
+        for (float& value : noise.pixels.pixels) value = std::sqrt(value);
+        const SeedRange& seeds = report.reference.seeds;
+        noise.attributes.push_back({kSeedsAttribute, fmt::format("{} {}", seeds.first, seeds.count)});
+        frame.layers.push_back(std::move(noise));
+    }
+    ExrDriver(path, colors, PixelDepth::Float).write(frame);
+}
+
+std::optional<PooledOrigin> read_pooled_origin(const fs::path& path) {
+    ChannelImage image;
+    try {
+        image = read_channels(path);
+    } catch (const IoError&) {
+        return std::nullopt;
+    }
+    const ImageAttribute* const seeds = image.find(kSeedsAttribute);
+    const auto* const text = seeds != nullptr ? std::get_if<std::string>(&seeds->value) : nullptr;
+    if (text == nullptr) return std::nullopt;
+    PooledOrigin origin;
+    std::istringstream(*text) >> origin.seeds.first >> origin.seeds.count;
+    ImageEstimate estimate{ImageF(image.pixels.width, image.pixels.height, 3),
+                           ImageF(image.pixels.width, image.pixels.height, 3)};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::string channel(1, "RGB"[c]);
+        const auto place = [&](const std::string& name) {
+            return static_cast<std::size_t>(std::ranges::find(image.channel_names, name) - image.channel_names.begin());
+        };
+        const std::size_t mean = place(channel), noise = place(fmt::format("{}.{}", kNoiseLayer, channel));
+        const auto channels = static_cast<std::size_t>(image.pixels.channels);
+        if (mean >= channels || noise >= channels) return std::nullopt;
+        for (std::size_t i = 0; i < estimate.mean.pixels.size() / 3; ++i) {
+            const float error = image.pixels.pixels[i * channels + noise];
+            estimate.mean.pixels[3 * i + c] = image.pixels.pixels[i * channels + mean];
+            estimate.variance.pixels[3 * i + c] = error * error;
+        }
+    }
+    origin.noise_rel_mse = relative_variance(estimate);
+    return origin;
+}
+
+std::string render_file_name(const ComparisonReport& report, std::size_t variant, std::uint32_t seed) {
+    const std::string name = plain_name(report.variants[variant].name);
+    const auto is_like = [&](const VariantReport& other) { return plain_name(other.name) == name; };
+    const bool is_one_of_several = std::ranges::count_if(report.variants, is_like) > 1;
+    return fmt::format("{}{}-seed{}.exr", name, is_one_of_several ? fmt::format("-{}", variant + 1) : "", seed);
+}
+
+void write_renders(const fs::path& directory, const ComparisonReport& report, std::span<const FinishedImages> images,
+                   const ColorConfig& colors) {
+    fs::create_directories(directory);
+    for (std::size_t v = 0; v < images.size(); ++v)
+        for (std::size_t i = 0; i < images[v].of_seeds.size(); ++i) {
+            const VariantReport& variant = report.variants[v];
+            OutputFrame frame = frame_of(report);
+            frame.pixels = images[v].of_seeds[i];
+            frame.spp = static_cast<int>(variant.spp);
+            frame.seed = variant.seeds[i];
+            frame.integrator = variant.name;
+            frame.render_seconds = variant.seconds.values[i];
+            ExrDriver(directory / render_file_name(report, v, variant.seeds[i]), colors, PixelDepth::Float)
+                .write(frame);
+        }
+}
+
+}  // namespace etendue

@@ -1,0 +1,49 @@
+// What a comparison leaves beside its report: data, tables, plots and images.
+#pragma once
+
+#include "color/color_config.h"
+#include "compare/comparison_reference.h"
+#include "report/comparison_report.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// Names, in the directory of a comparison, of the files that are written of every one, images aside.
+[[nodiscard]] std::vector<std::string> names_of_data_files();
+
+/// Name of the file that a reference is written to.
+inline constexpr const char* kReferenceFile = "reference.exr";
+/// Name of the directory of the images that are kept.
+inline constexpr const char* kImagesDirectory = "images";
+
+/// Writes data.csv, tables.tex and plots to `directory`; removes plots of an earlier comparison that are not made
+/// again.
+void write_data_files(const std::filesystem::path& directory, const ComparisonReport& report);
+
+/// Writes the reference as an EXR of 32-bit floats in the working space. A pooled one is the mean of all renders, has
+/// the standard error of each value as its layer "noise", and says which seeds it was made of.
+void write_reference(const std::filesystem::path& path, const Reference& reference, const ComparisonReport& report,
+                     const ColorConfig& colors);
+
+/// What a reference that `write_reference` wrote says of itself.
+struct PooledOrigin {
+    double noise_rel_mse = kUnknown;
+    SeedRange seeds{};
+};
+
+/// Nothing of files that are no pooled references, such as those whose channels cannot all be read as floats.
+[[nodiscard]] std::optional<PooledOrigin> read_pooled_origin(const std::filesystem::path& path);
+
+/// Returns the file's name of the render of a variant with `seed`, unlike that of any other of `report`.
+[[nodiscard]] std::string render_file_name(const ComparisonReport& report, std::size_t variant, std::uint32_t seed);
+
+/// Writes the last image of every render to `directory`, which is made.
+void write_renders(const std::filesystem::path& directory, const ComparisonReport& report,
+                   std::span<const FinishedImages> images, const ColorConfig& colors);
+
+}  // namespace etendue

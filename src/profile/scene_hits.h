@@ -1,0 +1,29 @@
+// What the rays of a render meet, by the names of the scene: counted from the rays that a profile has recorded.
+#pragma once
+
+#include "report/profile_report.h"
+#include "scene/scene_desc.h"
+#include "wave/profile/wave_profile.h"
+#include "world/world.h"
+
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// Names of what surfaces belong to.
+struct SceneNames {
+    std::vector<std::string> objects{};                ///< of each instance
+    std::vector<std::string> materials{};              ///< of each material
+    std::vector<std::vector<std::string>> textures{};  ///< images that each material names, once each
+};
+
+[[nodiscard]] SceneNames scene_names(const SceneDesc& scene);
+
+/// Counts the hits of all rays of `rays` that look for the nearest surface, by object, material and image, and shadow
+/// rays by the surface at which they end. The rays of `profile` are traced again; each stands for as many of its kind
+/// as were not recorded.
+[[nodiscard]] SceneHitsReport count_scene_hits(const World& world, const SceneNames& names, const WaveProfile& profile,
+                                               const RaysByKind& rays);
+
+}  // namespace etendue

@@ -1,0 +1,131 @@
+#include "report/comparison_files.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+std::string tex_text(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '\\':
+                result += "\\textbackslash{}";
+                break;
+            case '~':
+                result += "\\textasciitilde{}";
+                break;
+            case '^':
+                result += "\\textasciicircum{}";
+                break;
+            case '#':
+            case '$':
+            case '%':
+            case '&':
+            case '_':
+            case '{':
+            case '}':
+                result += fmt::format("\\{}", c);
+                break;
+            default:
+                result += c;
+        }
+    }
+    return result;
+}
+
+/// Three significant digits, with a power of ten where there would be many zeros.
+std::string tex_number(double value) {
+    if (!std::isfinite(value)) return "--";
+    if (value == 0.0) return "$0$";
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
+    if (exponent >= -3 && exponent < 5) return fmt::format("${:.{}f}$", value, std::max(0, 2 - exponent));
+    return fmt::format("${:.2f} \\times 10^{{{}}}$", value / std::pow(10.0, exponent), exponent);
+}
+
+std::string tex_interval(const RatioInterval& interval) {
+    if (!std::isfinite(interval.low)) return tex_number(interval.ratio);
+    return fmt::format("{} [{}, {}]", tex_number(interval.ratio), tex_number(interval.low), tex_number(interval.high));
+}
+
+/// `columns` says how each is aligned, as LaTeX has it.
+std::string tex_table(const std::string& columns, const std::vector<std::vector<std::string>>& rows) {
+    std::string text = fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n", columns);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        text += fmt::format("{} \\\\\n{}", fmt::join(rows[i], " & "), i == 0 ? "\\midrule\n" : "");
+    return text + "\\bottomrule\n\\end{tabular}\n";
+}
+
+std::vector<std::vector<std::string>> variant_rows(const ComparisonReport& report) {
+    std::vector<std::vector<std::string>> rows{{"Variant", "spp", "time (s)", "CPU time (s)"}};
+    for (const ReportedMetric& metric : report.metrics) rows.front().push_back(tex_text(metric.name));
+    for (const char* head : {"median relMSE", "slope"})
+        if (!report.metrics.empty()) rows.front().emplace_back(head);
+    for (const VariantReport& variant : report.variants) {
+        std::vector<std::string> row{tex_text(variant.name), fmt::format("{}", variant.spp),
+                                     tex_number(variant.seconds.mean()), tex_number(variant.cpu_seconds.mean())};
+        for (const ReportedMetric& metric : report.metrics) {
+            const auto error = variant.errors.find(metric.key);
+            const SeedValues values = error == variant.errors.end() ? SeedValues{} : error->second;
+            row.push_back(std::isfinite(values.deviation())
+                              ? fmt::format("{} $\\pm$ {}", tex_number(values.mean()), tex_number(values.deviation()))
+                              : tex_number(values.mean()));
+        }
+        if (!report.metrics.empty()) {
+            const auto error = variant.errors.find("relmse");
+            row.push_back(error == variant.errors.end() ? "--" : tex_number(error->second.median()));
+            const auto slope = variant.slopes.find("relmse");
+            row.push_back(slope == variant.slopes.end() ? "--" : tex_number(slope->second.spp));
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::vector<std::vector<std::string>> pair_rows(const ComparisonReport& report) {
+    std::vector<std::vector<std::string>> rows{
+        {"$a$ / $b$", "relMSE", "trimmed", "relMSE $\\times$ time", "trimmed $\\times$ time", "agree"}};
+    for (const PairReport& pair : report.pairs) {
+        std::vector<std::string> row{fmt::format("{} / {}", tex_text(pair.a), tex_text(pair.b))};
+        for (const char* key : {"relmse", "relmse-trimmed", "relmse_time", "relmse-trimmed_time"}) {
+            const auto ratio = pair.ratios.find(key);
+            row.push_back(ratio == pair.ratios.end() ? "--" : tex_interval(ratio->second));
+        }
+        row.push_back(!pair.not_tested.empty() || !pair.agreement
+                          ? "not tested"
+                          : fmt::format("{}, $p = {:.2g}$, $\\geq {:.2g}\\,\\%$",
+                                        pair.agreement->agree() ? "yes" : "no", pair.agreement->p_value,
+                                        100.0 * pair.smallest_of_image()));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::string columns_of(const std::vector<std::vector<std::string>>& rows) {
+    std::string columns(rows.front().size(), 'r');
+    columns.front() = 'l';
+    return columns;
+}
+
+}  // namespace
+
+std::string to_tex(const ComparisonReport& report) {
+    const auto variants = variant_rows(report);
+    std::string text =
+        fmt::format("% {}\n% {}\n% \\usepackage{{booktabs}}\n\n% Means and standard deviations over {} seeds.\n{}",
+                    report.program, report.command, report.seeds, tex_table(columns_of(variants), variants));
+    if (report.pairs.empty()) return text;
+    const auto pairs = pair_rows(report);
+    return text + fmt::format(
+                      "\n% Ratios with {:g}% confidence intervals. The percentage behind p is the smallest\n"
+                      "% difference of whole images that the test sees with a probability of {:g}. Time is\n"
+                      "% {}.\n{}",
+                      100.0 * kRatioConfidence, kPower, report.by_wall ? "that on the clock" : "CPU time",
+                      tex_table(columns_of(pairs), pairs));
+}
+
+}  // namespace etendue

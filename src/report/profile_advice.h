@@ -1,0 +1,18 @@
+// What the figures of a profile say about making its renders faster.
+#pragma once
+
+#include "report/profile_report.h"
+
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// Sentences with figures on what takes much of the time of `run` and what would change it, those of most time first;
+/// none where nothing stands out.
+[[nodiscard]] std::vector<std::string> advice(const ProfileRun& run);
+
+/// A sentence if the repetitions of `run` differ by more than a tenth in their CPU time; else empty.
+[[nodiscard]] std::string disagreement_of_repetitions(const ProfileRun& run);
+
+}  // namespace etendue
