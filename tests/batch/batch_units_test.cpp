@@ -78,6 +78,7 @@ TEST_F(BatchUnits, AreNamedAfterThePattern) {
               (Names{"out/a/still/-top.v2.exr", "out/moving/0003-top.v2.exr", "out/moving/0007-top.v2.exr"}));
     options_.name_pattern = "{scene}.{camera}.{frame}";
     EXPECT_EQ(images(collect({}, {})), (Names{"out/a/still.exr", "out/moving.0003.exr", "out/moving.0007.exr"}));
+    write_scene(folder_ / "scenes/other");
     options_.name_pattern = "same";
     EXPECT_THROW((void)collect(), SceneError);
     for (const char* wrong : {"{shot}", "a{", "/abs/{scene}", "../{scene}", "{scene}/", "{scene}.exr", "{frame}/a", ""})

@@ -173,7 +173,9 @@ TEST_F(Batch, ADryRunPrintsThePlanAndWritesNothing) {
 TEST_F(Batch, ADryRunSaysWhatWillFail) {
     add_scene("a");
     add_scene("b", R"("spq": 3,)");
-    add_scene("c", R"("camera": "front",)");
+    add_scene("c");
+    write_file(folder_ / "scenes/c/render.json", R"({"size": [16, 12], "spp": 2, "camera": "front"})");
+    add_scene("d");
     write_file(folder_ / "scenes/d/scene.gltf", "{");
     for (const bool probes : {true, false}) {
         Names dry = arguments({"--dry-run"});
@@ -211,7 +213,7 @@ TEST_F(Batch, OptionsThatFitNoSceneAreSaidOnce) {
 }
 
 TEST_F(Batch, ShowsWhatIsRunningAndWhenItEnds) {
-    add_slow_scene("a", 3.0);
+    add_slow_scene("a", 2.0);
     add_scene("b");
     const auto batch = start({"--threads", "1"});
     json report;
@@ -237,13 +239,17 @@ TEST_F(Batch, GoesOnFromTheSumsOfAFinishedImage) {
     EXPECT_EQ(run({"--keep-sums", "--float"}).exit_code, 0);
     EXPECT_TRUE(fs::exists(work_ / "out/a.sums"));
     EXPECT_NE(run({"--float", "--time", "60"}).err.find("1 image, all up to date"), std::string::npos);
-    const ProgramResult more = run({"--float", "--spp", "8", "--no-keep-sums"});
-    EXPECT_NE(more.err.find("spp: 2 -> 8, goes on from its sums"), std::string::npos) << more.err;
+    const ProgramResult plan = run({"--float", "--spp", "8", "--dry-run"});
+    EXPECT_NE(plan.out.find("spp: 2 -> 8, goes on from its sums"), std::string::npos) << plan.out;
+    const std::string scene = (folder_ / "scenes/a").string();
+    const ProgramResult more =
+        run_etendue({"render", scene, "--float", "--spp", "8", "-o", "out/a.exr", "--resume"}, work_);
+    EXPECT_NE(more.err.find("going on after 2 of 8 samples"), std::string::npos) << more.err;
     EXPECT_FALSE(fs::exists(work_ / "out/a.sums"));
     const json statistics = json::parse(read_file(work_ / "out/a.json"));
     EXPECT_EQ(statistics["spp"]["done"], 8);
-    const ProgramResult anew = run_etendue(
-        {"render", (folder_ / "scenes/a").string(), "--float", "--spp", "8", "-o", "anew.exr", "--quiet"}, work_);
+    const ProgramResult anew =
+        run_etendue({"render", scene, "--float", "--spp", "8", "-o", "anew.exr", "--quiet"}, work_);
     EXPECT_EQ(anew.exit_code, 0) << anew.err;
     const ProgramResult difference = run_etendue({"diff", "out/a.exr", "anew.exr", "--json"}, work_);
     EXPECT_EQ(json::parse(difference.out)["measures"]["mse"]["value"], 0.0) << difference.out;

@@ -241,12 +241,12 @@ TEST_F(CommandLine, UsageErrorsEndWithTwo) {
                                                        {"render", box, "--speed"},
                                                        {"render", box, "--spp", "0"},
                                                        {"render", box, "--size", "12"},
-                                                       {"render", box, "-o", "image.png"},
+                                                       {"render", box, "-o", "image.jpg"},
                                                        {"render", box, "--threads", "0"},
                                                        {"batch", scenes()},
                                                        {"batch", "no-such-directory", "-o", "out"},
                                                        {"inspect"},
-                                                       {"inspect", box, "--spp", "4"}};
+                                                       {"inspect", box, "--spq", "4"}};
     for (const auto& arguments : bad) {
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << (arguments.empty() ? "" : arguments.back()) << "\n" << result.err;

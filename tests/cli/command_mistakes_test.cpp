@@ -93,8 +93,17 @@ TEST_F(CommandMistakes, AreToldApartFromWhatCanBeDone) {
     EXPECT_TRUE(fs::exists(work_ / "still.exr"));
 }
 
+TEST_F(CommandMistakes, OldNamesGoOnWorkingWithANote) {
+    write_file(work_ / "scenes/box/render.json", R"({"resolution": [20, 10], "spp": 1})");
+    const ProgramResult result = run({"render", "scenes/box", "-o", "old.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("'resolution' is called 'size' now"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("old.exr: 20x10, 1 spp"), std::string::npos) << result.err;
+}
+
 TEST_F(CommandMistakes, SeveralScenesAreInspectedAtOnce) {
-    write_scene(work_ / "scenes/other", R"("camera": "front",)");
+    write_scene(work_ / "scenes/other");
+    write_file(work_ / "scenes/other/render.json", R"({"size": [16, 12], "spp": 2, "camera": "front"})");
     const ProgramResult all = run({"inspect", "scenes"});
     EXPECT_EQ(all.exit_code, 3);
     for (const char* part : {"== scenes/box\n", "image: 16x12 pixels, 2 samples per pixel, path, camera 'main'",

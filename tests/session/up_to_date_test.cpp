@@ -114,7 +114,7 @@ TEST_F(UpToDate, WhenTheErrorThatIsAskedWasReached) {
     write_report(statistics);
     EXPECT_EQ(reason_with({{"--error", "0.03"}}), "");
     EXPECT_EQ(reason_with({{"--error", "0.01"}}), "settings changed: error: 0.02 -> 0.01");
-    EXPECT_EQ(reason_with({{"--error", "0"}, {"--spp", "300"}}), "settings changed: error: 0.02 -> 0; spp: 1000 -> 300")
+    EXPECT_EQ(reason_with({{"--error", "0"}, {"--spp", "300"}}), "settings changed: spp: 1000 -> 300; error: 0.02 -> 0")
         << "not every pixel has these";
 }
 
@@ -178,8 +178,9 @@ TEST_F(UpToDate, NotWhenATextureIsThereThatWasMissingOrBroken) {
 }
 
 TEST_F(UpToDate, AlsoWhereTheSceneHasBeenMovedOrCopied) {
-    fs::rename(scene_, folder_ / "moved");
-    scene_ = folder_ / "moved";
+    fs::create_directory(folder_ / "elsewhere");
+    fs::rename(scene_, folder_ / "elsewhere/box");
+    scene_ = folder_ / "elsewhere/box";
     EXPECT_EQ(reason(), "");
     fs::copy(scene_, folder_ / "copied", fs::copy_options::recursive);
     EXPECT_FALSE(why_outdated(output_, folder_ / "copied" / "scene.gltf"));
@@ -207,6 +208,7 @@ TEST_F(UpToDate, NotWhenAFileOfALayerIsMissing) {
 TEST_F(UpToDate, NotWhenTheRenderWasCutShortOrItsReportIsForeign) {
     RenderStatistics statistics = complete();
     statistics.complete = false;
+    statistics.spp_requested = statistics.spp_done = 0;
     write_report(statistics);
     EXPECT_EQ(reason(), "was not finished");
     for (const char* text : {"", "{", "[]", "null", "{}", R"({"complete": true})", R"({"settings_hash": "abc"})",
