@@ -13,13 +13,14 @@
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
-#include <cstring>
+#include <filesystem>
 #include <mutex>
 #include <new>
 #include <optional>
 #include <stop_token>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,7 @@ namespace etendue {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenLooks(100);
@@ -38,6 +40,8 @@ std::vector<std::string> child_arguments(const BatchTask& task, const BatchOptio
     std::vector<std::string> arguments = render_arguments(task, options);
     arguments.insert(arguments.end(), {"--progress-fd", fmt::format("{}", ChildProcess::kProgressDescriptor),
                                        "--checkpoint-every", fmt::format("{}", options.checkpoint_minutes)});
+    if (options.keep_sums_after)
+        arguments.insert(arguments.end(), {"--keep-sums-after", fmt::format("{}", *options.keep_sums_after)});
     if (how.resume) arguments.emplace_back("--resume");
     if (how.force) arguments.emplace_back("--force");
     return arguments;
@@ -52,15 +56,6 @@ bool tells_of_memory(const std::deque<std::string>& messages) {
     return std::ranges::any_of(messages, [&](const std::string& line) {
         return std::ranges::any_of(kWords, [&](std::string_view w) { return line.find(w) != std::string::npos; });
     });
-}
-
-std::string end_in_words(const ChildEnd& end) {
-    if (end.signal == 0) return fmt::format("its process ended with exit code {}", end.exit_code);
-    const char* const description = ::sigdescr_np(end.signal);
-    std::string text = fmt::format("its process was ended by {}", signal_name(end.signal));
-    if (description != nullptr) text += fmt::format(" ({})", description);
-    if (end.signal == SIGKILL) text += ": by somebody, or by the system for want of memory";
-    return text;
 }
 
 bool is_interrupt(const ChildEnd& end) {
@@ -114,13 +109,17 @@ class Repeater {
 
 }  // namespace
 
-Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
-                         const AttemptCallbacks& callbacks) {
-    ChildProcess child({.arguments = child_arguments(task, options, how), .memory_limit = options.max_memory});
+namespace {
+
+/// Runs a command of this program to its end. It is ended when it shows no progress for `stall_minutes`, unless that is
+/// 0.
+Attempt run_in_child(std::vector<std::string> arguments, const BatchOptions& options, double stall_minutes,
+                     const AttemptCallbacks& callbacks) {
+    ChildProcess child({.arguments = std::move(arguments), .memory_limit = options.max_memory});
     Attempt attempt;
     Clock::time_point last_sign = Clock::now();  // of its going on
     bool was_told_to_stop = false;
-    const std::chrono::duration<double, std::ratio<60>> stall_limit(options.stall_minutes);
+    const std::chrono::duration<double, std::ratio<60>> stall_limit(stall_minutes);
     const auto on_progress = [&](const std::string& line) {
         const std::optional<ChildProgress> progress = parse_progress(line);
         if (!progress) return;
@@ -164,6 +163,25 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
     return attempt;
 }
 
+}  // namespace
+
+Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
+                         const AttemptCallbacks& callbacks) {
+    return run_in_child(child_arguments(task, options, how), options, options.stall_minutes, callbacks);
+}
+
+Attempt denoise_in_child(const BatchTask& task, const BatchOptions& options, const AttemptCallbacks& callbacks) {
+    const std::string image = as_argument(task.job.output);
+    const std::string denoised = as_argument(denoised_path(task.job.output));
+    std::vector<std::string> arguments{"denoise", image, "-o", denoised, "--quiet"};
+    if (options.threads > 0) arguments.insert(arguments.end(), {"--threads", fmt::format("{}", options.threads)});
+    // It tells nothing of its progress.
+    Attempt attempt = run_in_child(std::move(arguments), options, 0.0, callbacks);
+    if (attempt.end != AttemptEnd::Done || !options.overrides.png) return attempt;
+    const std::string preview = fs::path(denoised).replace_extension(".png").string();
+    return run_in_child({"view", denoised, "-o", preview}, options, 0.0, callbacks);
+}
+
 Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                      const std::string& title, const std::function<bool()>& keep_alive, const ThreadPool& threads) {
     Attempt attempt{.end = AttemptEnd::Done};
@@ -179,6 +197,7 @@ Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const A
                                             .make_directories = true,
                                             .checkpoint_minutes = options.checkpoint_minutes,
                                             .resume = how.resume,
+                                            .keep_sums_after = options.keep_sums_after,
                                             .title = title,
                                             .command = options.command,
                                             .is_lost = &is_lost},

@@ -49,6 +49,11 @@ struct AttemptCallbacks {
 [[nodiscard]] Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                                        const AttemptCallbacks& callbacks);
 
+/// Takes the noise out of the image, which has been rendered, by `etendue denoise`, and shows the result as a PNG
+/// unless the batch is to write none. Throws IoError if there can be no process.
+[[nodiscard]] Attempt denoise_in_child(const BatchTask& task, const BatchOptions& options,
+                                       const AttemptCallbacks& callbacks);
+
 /// Renders it here. `title` stands before the progress bar; `keep_alive` is called from a thread of its own;
 /// once it is false, rendering ends soon, and nothing is written any more.
 [[nodiscard]] Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,

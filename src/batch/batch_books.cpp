@@ -1,12 +1,13 @@
 #include "batch/batch_books.h"
 
-#include "batch/batch_page.h"
 #include "core/error.h"
 #include "core/log.h"
 
+#include <algorithm>
+
 namespace etendue {
 
-BatchBooks::BatchBooks(const std::filesystem::path& output) : output_(output), ledger_(output / "ledger.jsonl") {}
+BatchBooks::BatchBooks(const std::filesystem::path& output) : page_(output), ledger_(output / "ledger.jsonl") {}
 
 void BatchBooks::try_to(const std::function<void()>& write) {
     try {
@@ -21,14 +22,16 @@ void BatchBooks::append(const LedgerEvent& event) {
     try_to([&] { ledger_.append(event); });
 }
 
-void BatchBooks::write_reports(const BatchReport& report) {
+bool BatchBooks::are_reports_due() const {
     constexpr int kLeastShare = 20;
-    if (Clock::now() - written_ > kLeastShare * took_) write_last_reports(report);
+    constexpr Clock::duration kNewest = std::chrono::seconds(1);
+    constexpr Clock::duration kOldest = std::chrono::minutes(1);
+    return Clock::now() - written_ > std::clamp(kLeastShare * took_, kNewest, kOldest);
 }
 
-void BatchBooks::write_last_reports(const BatchReport& report) {
+void BatchBooks::write_reports(const BatchReport& report) {
     const Clock::time_point start = Clock::now();
-    try_to([&] { write_batch_report(report, output_); });
+    try_to([&] { page_.write(report); });
     written_ = Clock::now();
     took_ = written_ - start;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "batch/batch_ledger.h"
+#include "batch/batch_page.h"
 #include "report/batch_report.h"
 
 #include <chrono>
@@ -17,11 +18,11 @@ class BatchBooks {
 
     void append(const LedgerEvent& event);
 
-    /// Writes report.json and index.html, unless the time that this takes would not be small against the time since it
-    /// was last done: for many units it costs a part of the whole, and not more the more there are.
+    /// Returns whether report.json and index.html are to be written anew: they are a second old and the time that this
+    /// takes is small against the time since it was last done, or they are a minute old.
+    [[nodiscard]] bool are_reports_due() const;
+    /// Writes report.json and index.html.
     void write_reports(const BatchReport& report);
-    /// Writes report.json and index.html, however long that takes.
-    void write_last_reports(const BatchReport& report);
 
     /// Returns false if something could not be written.
     [[nodiscard]] bool are_kept() const { return are_kept_; }
@@ -30,7 +31,7 @@ class BatchBooks {
     using Clock = std::chrono::steady_clock;
     void try_to(const std::function<void()>& write);
 
-    std::filesystem::path output_;
+    BatchPageWriter page_;
     BatchLedger ledger_;
     bool are_kept_ = true;
     Clock::time_point written_{};

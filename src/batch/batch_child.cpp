@@ -3,8 +3,11 @@
 #include "core/error.h"
 #include "session/interrupt.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,14 +18,25 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooksAtChild(100);
 
-/// A path that no command line takes for an option.
-std::string as_argument(const std::filesystem::path& path) {
-    return path.string().starts_with('-') ? "./" + path.string() : path.string();
+/// Holds what a process that was asked has said.
+struct Answer {
+    nlohmann::json json{};  ///< no object if there was no whole one
+    std::string error{};    ///< why there is none that counts
+};
+
+/// Returns the text at `key` of an object; empty if there is none.
+std::string text_of(const nlohmann::json& json, const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// Runs `arguments` to their end and returns the JSON object that stdout holds; it is no object if anything failed, or
-/// if the user has no patience.
-nlohmann::json ask(std::vector<std::string> arguments, const BatchOptions& options) try {
+int number_of(const nlohmann::json& json, const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_number_integer() ? found->get<int>() : 0;
+}
+
+/// Runs `arguments` to their end, or until the user has no patience.
+Answer ask(std::vector<std::string> arguments, const BatchOptions& options) try {
     // A scene may have very many meshes and materials, whose names `inspect` lists.
     constexpr std::size_t kMostOutput = std::size_t{1} << 28;
     ChildProcess child(
@@ -30,13 +44,47 @@ nlohmann::json ask(std::vector<std::string> arguments, const BatchOptions& optio
     const auto ignore = [](const std::string&) {};
     while (child.wait(kBetweenLooksAtChild, ignore, ignore))
         if (interrupt_requested()) child.send(SIGKILL);
-    if (child.end().signal != 0 || child.end().exit_code != 0 || child.output_was_cut()) return {};
-    return nlohmann::json::parse(child.output(), nullptr, false);
+    Answer answer;
+    if (!child.output_was_cut()) answer.json = nlohmann::json::parse(child.output(), nullptr, false);
+    if (interrupt_requested() || (child.end().signal == 0 && child.end().exit_code == 0)) return answer;
+    answer.error = error_of(child.last_messages());
+    if (answer.error.empty()) answer.error = "error: " + end_in_words(child.end());
+    return answer;
 } catch (const IoError&) {
     return {};  // no process could be started: those that render will fail, too, and say why
 }
 
+SceneLook look_of(const Answer& answer, const nlohmann::json& outline) {
+    SceneLook look{.error = answer.error};
+    if (!outline.is_object()) return look;
+    look.outline = {.width = number_of(outline, "width"),
+                    .height = number_of(outline, "height"),
+                    .spp = number_of(outline, "spp"),
+                    .integrator = text_of(outline, "integrator"),
+                    .camera = text_of(outline, "camera")};
+    return look;
+}
+
+/// Returns the options that make the image of `task` of its scene, as the batch was given them.
+std::vector<std::string> options_of(const BatchTask& task, const BatchOptions& options) {
+    std::vector<std::string> arguments;
+    std::vector<GivenOption> given = options.given;
+    if (task.job.frame) given = without(std::move(given), "--frames");
+    for (const GivenOption& option : given) {
+        arguments.push_back(option.name);
+        if (option.value) arguments.push_back(*option.value);
+    }
+    if (task.job.frame) arguments.insert(arguments.end(), {"--frames", fmt::format("{0}:{0}", *task.job.frame)});
+    if (task.job.variant) arguments.insert(arguments.end(), {"--variant", *task.job.variant});
+    if (task.job.camera) arguments.insert(arguments.end(), {"--camera", *task.job.camera});
+    return arguments;
+}
+
 }  // namespace
+
+std::string as_argument(const std::filesystem::path& path) {
+    return path.string().starts_with('-') ? "./" + path.string() : path.string();
+}
 
 std::optional<ChildProgress> parse_progress(const std::string& line) {
     const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
@@ -47,42 +95,69 @@ std::optional<ChildProgress> parse_progress(const std::string& line) {
     if (phase == json.end() || !phase->is_string() || fraction == json.end() || !fraction->is_number() ||
         seconds == json.end() || !seconds->is_number())
         return std::nullopt;
-    return ChildProgress{phase->get<std::string>(), fraction->get<double>(), seconds->get<double>()};
+    const auto samples = json.find("samples");
+    const bool has_samples = samples != json.end() && samples->is_number_unsigned();
+    return ChildProgress{phase->get<std::string>(), fraction->get<double>(), seconds->get<double>(),
+                         has_samples ? samples->get<std::uint64_t>() : 0};
 }
 
 std::vector<std::string> render_arguments(const BatchTask& task, const BatchOptions& options) {
     std::vector<std::string> arguments{"render", as_argument(task.job.scene), "-o", as_argument(task.render_output)};
-    std::vector<GivenOption> given = options.given;
-    if (task.job.frame) given = without(std::move(given), "--frames");
-    for (const GivenOption& option : given) {
-        arguments.push_back(option.name);
-        if (option.value) arguments.push_back(*option.value);
-    }
-    if (task.job.frame) arguments.insert(arguments.end(), {"--frames", fmt::format("{0}:{0}", *task.job.frame)});
-    if (task.job.variant) arguments.insert(arguments.end(), {"--variant", *task.job.variant});
+    for (std::string& option : options_of(task, options)) arguments.push_back(std::move(option));
     if (options.threads > 0) arguments.insert(arguments.end(), {"--threads", fmt::format("{}", options.threads)});
     if (options.quiet) arguments.emplace_back("--quiet");
     return arguments;
 }
 
-std::vector<std::string> find_variants(const std::filesystem::path& scene, const BatchOptions& options) {
-    if (interrupt_requested()) return {};
-    const nlohmann::json json = ask({"inspect", as_argument(scene), "--json"}, options);
-    const auto variants = json.is_object() ? json.value("variants", nlohmann::json()) : nlohmann::json();
-    std::vector<std::string> names;
-    if (!variants.is_array()) return names;
-    for (const nlohmann::json& name : variants)
-        if (name.is_string()) names.push_back(name.get<std::string>());
+SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& options) {
+    SceneNames names;
+    if (interrupt_requested()) return names;
+    const nlohmann::json json = ask({"inspect", as_argument(scene), "--json"}, options).json;
+    const auto list = [&](const char* key) {
+        std::vector<std::string> found;
+        const auto all = json.is_object() ? json.value(key, nlohmann::json()) : nlohmann::json();
+        if (all.is_array())
+            for (const nlohmann::json& name : all)
+                if (name.is_string()) found.push_back(name.get<std::string>());
+        return found;
+    };
+    names.variants = list("variants");
+    names.cameras = list("cameras");
+    // Cameras whose names say nothing are found by their nodes.
+    const std::vector<std::string> nodes = list("camera_nodes");
+    for (std::size_t i = 0; i < std::min(names.cameras.size(), nodes.size()); ++i)
+        if (names.cameras[i].empty() || std::ranges::count(names.cameras, names.cameras[i]) > 1)
+            names.cameras[i] = nodes[i];
+    std::erase(names.cameras, "");
     return names;
 }
 
-std::optional<double> probe_in_child(const BatchTask& task, const BatchOptions& options) {
+SceneLook probe_in_child(const BatchTask& task, const BatchOptions& options) {
     std::vector<std::string> arguments = render_arguments(task, options);
     arguments.emplace_back("--probe");
-    const nlohmann::json json = ask(std::move(arguments), options);
-    const auto seconds = json.is_object() ? json.value("estimated_seconds", nlohmann::json()) : nlohmann::json();
-    if (!seconds.is_number()) return std::nullopt;
-    return seconds.get<double>();
+    const Answer answer = ask(std::move(arguments), options);
+    SceneLook look = look_of(answer, answer.json);
+    const auto seconds =
+        answer.json.is_object() ? answer.json.value("estimated_seconds", nlohmann::json()) : nlohmann::json();
+    if (seconds.is_number()) look.seconds = seconds.get<double>();
+    return look;
+}
+
+SceneLook inspect_in_child(const BatchTask& task, const BatchOptions& options) {
+    std::vector<std::string> arguments{"inspect", as_argument(task.job.scene), "--json"};
+    for (std::string& option : options_of(task, options)) arguments.push_back(std::move(option));
+    Answer answer = ask(std::move(arguments), options);
+    const auto value = [&](const char* key) {
+        return answer.json.is_object() ? answer.json.value(key, nlohmann::json()) : nlohmann::json();
+    };
+    std::string errors;
+    for (const nlohmann::json& problem : value("problems")) {
+        if (!problem.is_object() || text_of(problem, "severity") != "error") continue;
+        if (!errors.empty()) errors += '\n';
+        errors += text_of(problem, "text");
+    }
+    if (!errors.empty()) answer.error = errors;
+    return look_of(answer, value("image"));
 }
 
 std::string error_of(const std::deque<std::string>& lines) {
@@ -92,6 +167,15 @@ std::string error_of(const std::deque<std::string>& lines) {
         if (!text.empty()) text += '\n';
         text += line;
     }
+    return text;
+}
+
+std::string end_in_words(const ChildEnd& end) {
+    if (end.signal == 0) return fmt::format("its process ended with exit code {}", end.exit_code);
+    const char* const description = ::sigdescr_np(end.signal);
+    std::string text = fmt::format("its process was ended by {}", signal_name(end.signal));
+    if (description != nullptr) text += fmt::format(" ({})", description);
+    if (end.signal == SIGKILL) text += ": by somebody, or by the system for want of memory";
     return text;
 }
 

@@ -5,12 +5,13 @@
 #include "core/write_file.h"
 #include "image/jpeg.h"
 #include "image/scale_down.h"
-#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -57,9 +58,11 @@ std::vector<unsigned char> make_thumbnail(const fs::path& png, std::size_t most)
     }
 }
 
-Thumbnails make_thumbnails(const BatchReport& report, const fs::path& out) {
-    const auto count = static_cast<std::size_t>(
-        std::ranges::count_if(report.units, [](const BatchUnit& unit) { return has_image(unit.outcome); }));
+}  // namespace
+
+Thumbnails BatchPageWriter::make_thumbnails(const BatchReport& report) {
+    const auto has_preview = [](const BatchUnit& unit) { return has_image(unit.outcome) && !unit.preview.empty(); };
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(report.units, has_preview));
     Thumbnails thumbnails;
     thumbnails.files.resize(report.units.size());
     const std::size_t most = std::min(kMostBytes, kBytesOfAll / std::max<std::size_t>(count, 1));
@@ -69,20 +72,32 @@ Thumbnails make_thumbnails(const BatchReport& report, const fs::path& out) {
     }
     if (most < kMostBytes / 2)
         thumbnails.note = fmt::format("The thumbnails are coarse, at most {} bytes each, as there are so many.", most);
-    const ThreadPool threads;
-    threads.parallel_for(report.units.size(), [&](std::size_t i, int) {
+    std::vector<std::pair<std::size_t, Kept*>> changed;
+    for (std::size_t i = 0; i < report.units.size(); ++i) {
         const BatchUnit& unit = report.units[i];
-        if (has_image(unit.outcome))
-            thumbnails.files[i] = make_thumbnail(OutputPaths::beside(out / unit.image).png, most);
-    });
+        if (!has_preview(unit)) continue;
+        std::error_code error;
+        const auto time = fs::last_write_time(out_ / unit.preview, error);
+        Kept& kept = kept_[unit.preview];
+        if (kept.changed == time && kept.most_bytes == most && !error) continue;
+        kept.changed = time;
+        kept.most_bytes = most;
+        changed.emplace_back(i, &kept);
+    }
+    if (!changed.empty()) {
+        const ThreadPool threads;
+        threads.parallel_for(changed.size(), [&](std::size_t i, int) {
+            changed[i].second->file = make_thumbnail(out_ / report.units[changed[i].first].preview, most);
+        });
+    }
+    for (std::size_t i = 0; i < report.units.size(); ++i)
+        if (has_preview(report.units[i])) thumbnails.files[i] = kept_.at(report.units[i].preview).file;
     return thumbnails;
 }
 
-}  // namespace
-
-void write_batch_report(const BatchReport& report, const fs::path& out) {
-    write_text(out / "report.json", to_json(report));
-    write_text(out / "index.html", make_batch_page(report, make_thumbnails(report, out)));
+void BatchPageWriter::write(const BatchReport& report) {
+    write_text(out_ / "report.json", to_json(report));
+    write_text(out_ / "index.html", make_batch_page(report, make_thumbnails(report)));
 }
 
 }  // namespace etendue

@@ -1,12 +1,18 @@
 #include "batch/batch_plan.h"
 
-#include "batch/batch_child.h"
+#include "loader/loader.h"
 #include "session/checkpoint_files.h"
 #include "session/interrupt.h"
 #include "session/prepared_scene.h"
 #include "session/up_to_date.h"
 
+#include <algorithm>
 #include <exception>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <sys/stat.h>
@@ -28,6 +34,13 @@ void describe_unfinished(PlannedUnit& unit, const Staleness& stale, const Ledger
     unit.done = stale.done;
 }
 
+/// True if the image without noise was made of the image as it is.
+bool is_denoised(const std::filesystem::path& image) {
+    std::error_code error;
+    const auto made = std::filesystem::last_write_time(denoised_path(image), error);
+    return !error && made >= std::filesystem::last_write_time(image, error) && !error;
+}
+
 }  // namespace
 
 FileStamp FileStamp::of(const std::filesystem::path& path) {
@@ -37,7 +50,7 @@ FileStamp FileStamp::of(const std::filesystem::path& path) {
 }
 
 void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const LedgerHistory& history) {
-    const OutputPaths output = OutputPaths::beside(unit.task.job.output);
+    const OutputPaths output = OutputPaths::beside(unit.task.job.output, options.overrides.png);
     unit.seen = FileStamp::of(output.json);
     unit.reason.clear();
     unit.done = 0.0;
@@ -52,12 +65,19 @@ void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const L
             // Of files that were rendered before: what might crash a process has had its chance to crash another one.
             const SettingsOverrides overrides = overrides_of(unit.task.job, options.overrides);
             const PreparedScene prepared = prepare_scene(unit.task.job.scene, overrides);
-            const std::string hash = settings_hash(prepared.scene, overrides.depth);
-            if (const auto changed = why_outdated(output, prepared.scene, hash)) unit.reason = changed->reason;
+            unit.outline = outline_of(prepared.scene);
+            if (const auto changed = why_outdated(output, prepared.scene, overrides.depth)) {
+                unit.reason = changed->reason;
+                if (changed->done > 0.0 && std::filesystem::exists(sums_path(unit.task.job.output))) {
+                    unit.reason += ", goes on from its sums";
+                    unit.done = changed->done;
+                }
+            }
         } catch (const std::exception&) {
             unit.reason = "the scene cannot be loaded";
         }
     }
+    if (!unit.is_stale() && options.denoise && !is_denoised(unit.task.job.output)) unit.reason = "was not denoised";
 }
 
 BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, const LedgerHistory& history,
@@ -65,32 +85,67 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
     BatchPlan plan;
     plan.reserve(tasks.size());
     const std::size_t count = tasks.size();
-    std::filesystem::path probed_scene;
-    std::optional<double> seconds;
+    std::optional<std::filesystem::path> seen_scene;
+    SceneLook look;
     for (BatchTask& task : tasks) {
         if (interrupt_requested()) break;
-        progress(task.job.name, plan.size(), count);
+        progress(task.job.name, plan, count);
         PlannedUnit& unit = plan.emplace_back(PlannedUnit{.task = std::move(task)});
         examine(unit, options, options.force, history);
-        if (!unit.is_stale() || options.no_probe) continue;
-        if (unit.task.job.scene != probed_scene) {
-            probed_scene = unit.task.job.scene;
-            seconds = probe_in_child(unit.task, options);
+        if (!unit.is_stale() || (options.no_probe && !options.dry_run)) continue;
+        if (unit.task.job.scene != seen_scene) {
+            seen_scene = unit.task.job.scene;
+            look = options.no_probe ? inspect_in_child(unit.task, options) : probe_in_child(unit.task, options);
         }
-        if (seconds) unit.estimated_seconds = *seconds * (1.0 - unit.done);
+        unit.outline = look.outline;
+        unit.error = look.error;
+        if (look.seconds) unit.estimated_seconds = *look.seconds * (1.0 - unit.done);
     }
     return plan;
 }
 
+void arrange(BatchPlan& plan, BatchOrder order) {
+    const auto by = [&](const auto& key) {
+        std::ranges::stable_sort(plan, [&](const PlannedUnit& a, const PlannedUnit& b) { return key(a) < key(b); });
+    };
+    static constexpr double kLast = std::numeric_limits<double>::infinity();
+    switch (order) {
+        case BatchOrder::Found:
+            return;
+        case BatchOrder::Shortest:
+            return by([](const PlannedUnit& unit) { return unit.estimated_seconds.value_or(kLast); });
+        case BatchOrder::Longest:
+            return by([](const PlannedUnit& unit) { return -unit.estimated_seconds.value_or(-kLast); });
+        case BatchOrder::Name:
+            return by([](const PlannedUnit& unit) { return std::string_view(unit.task.id); });
+        case BatchOrder::Newest: {
+            std::map<std::filesystem::path, std::filesystem::file_time_type> times;
+            for (const PlannedUnit& unit : plan) {
+                const auto [time, is_new] = times.try_emplace(unit.task.job.scene);
+                if (!is_new) continue;
+                time->second = std::filesystem::file_time_type::min();
+                std::error_code error;
+                for (const std::filesystem::path& input : find_inputs(unit.task.job.scene))
+                    if (const auto changed = std::filesystem::last_write_time(input, error); !error)
+                        time->second = std::max(time->second, changed);
+            }
+            std::ranges::stable_sort(plan, std::ranges::greater(),
+                                     [&](const PlannedUnit& unit) { return times.at(unit.task.job.scene); });
+        }
+    }
+}
+
 PlanTotals totals(const BatchPlan& plan) {
-    PlanTotals sum{.seconds = 0.0};
+    PlanTotals sum;
     for (const PlannedUnit& unit : plan) {
         if (!unit.is_stale()) continue;
         ++sum.stale;
-        if (sum.seconds && unit.estimated_seconds)
-            *sum.seconds += *unit.estimated_seconds;
+        if (!unit.error.empty())
+            ++sum.failing;
+        else if (unit.estimated_seconds)
+            sum.seconds += *unit.estimated_seconds;
         else
-            sum.seconds.reset();
+            ++sum.unknown;
     }
     return sum;
 }

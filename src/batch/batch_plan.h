@@ -1,6 +1,7 @@
 // What a batch is going to do, before it does it: which images are stale, why, and how long they will take.
 #pragma once
 
+#include "batch/batch_child.h"
 #include "batch/batch_ledger.h"
 #include "batch/batch_options.h"
 #include "batch/batch_units.h"
@@ -31,6 +32,8 @@ struct PlannedUnit {
     double done = 0.0;                          ///< part of its samples that a checkpoint holds, [0, 1]
     std::optional<double> estimated_seconds{};  ///< seconds for what is left; if it is stale and a probe was possible
     FileStamp seen{};                           ///< the statistics beside the image, when they were looked at
+    ImageOutline outline{};                     ///< outline of the image, as far as it was found out
+    std::string error{};  ///< why it cannot be rendered, of any number of lines; empty if nothing is known to be wrong
 
     [[nodiscard]] bool is_stale() const { return !reason.empty(); }
 };
@@ -45,23 +48,30 @@ using BatchPlan = std::vector<PlannedUnit>;
 /// says.
 void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const LedgerHistory& history);
 
-/// Told what is being looked at, and how many of how many things came before.
-using PlanProgress = std::function<void(const std::string& what, std::size_t done, std::size_t of)>;
+/// Told what is being looked at, the part of the plan that is made, and of how many images it will be.
+using PlanProgress = std::function<void(const std::string& what, const BatchPlan& so_far, std::size_t of)>;
 
-/// Examines all images, and, unless it is not wanted, lets each scene's first stale one be probed: the others of that
-/// scene are taken to cost the same. Ends early if it is interrupted.
+/// Examines all images, and lets each scene's first stale one be probed, or, for a dry run without probes, inspected:
+/// the others of that scene are taken to cost the same and to fail if it fails. Ends early if it is interrupted.
 [[nodiscard]] BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options,
                                   const LedgerHistory& history, const PlanProgress& progress);
+
+/// Puts the images into the order that is asked for; what is not known comes last.
+void arrange(BatchPlan& plan, BatchOrder order);
 
 /// Sums over the stale images of a plan.
 struct PlanTotals {
     std::size_t stale = 0;
-    std::optional<double> seconds{};  ///< if every stale image has an estimate
+    std::size_t failing = 0;  ///< stale images that cannot be rendered
+    std::size_t unknown = 0;  ///< stale images that can be, without an estimate
+    double seconds = 0.0;     ///< seconds of those with one
 };
 [[nodiscard]] PlanTotals totals(const BatchPlan& plan);
 
-/// A table, with a row for each image and a last line that sums them up.
+/// Returns a table with a row for each image, what is wrong with those that will fail, and a last line that sums up.
 [[nodiscard]] std::string to_table(const BatchPlan& plan);
+/// Says what is wrong with the images that will fail, once for each scene; empty if nothing is.
+[[nodiscard]] std::string failures(const BatchPlan& plan);
 /// One JSON object: docs/batch.md tells its keys.
 [[nodiscard]] std::string to_json(const BatchPlan& plan);
 /// One line: "3 of 5 images to render, about 2:10: 2 never rendered, 1 settings changed".

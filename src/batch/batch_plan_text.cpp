@@ -4,8 +4,12 @@
 #include "session/progress_display.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,40 +22,95 @@ std::string format_estimate(const std::optional<double>& seconds) {
     return seconds ? format_duration(*seconds) : "?";
 }
 
+/// "about 2:54" or, if some have no estimate, "\u2265 2:54, 1 unknown"; empty if nothing is known.
+std::string format_time(const PlanTotals& sum) {
+    const std::size_t known = sum.stale - sum.failing - sum.unknown;
+    if (known == 0) return "";
+    if (sum.unknown == 0) return "about " + format_duration(sum.seconds);
+    return fmt::format("\u2265 {}, {} unknown", format_duration(sum.seconds), sum.unknown);
+}
+
+std::string images(std::size_t count) {
+    return fmt::format("{} image{}", count, count == 1 ? "" : "s");
+}
+
+/// Returns "; 1 will fail", or nothing if none will.
+std::string failing(const BatchPlan& plan) {
+    const std::size_t count = totals(plan).failing;
+    return count > 0 ? fmt::format("; {} will fail", count) : "";
+}
+
 /// "3 of 5 images to render, about 2:10".
 std::string counted(const BatchPlan& plan) {
     const PlanTotals sum = totals(plan);
-    if (sum.stale == 0) return fmt::format("{} images, all up to date", plan.size());
-    std::string text = fmt::format("{} of {} images to render", sum.stale, plan.size());
-    if (sum.seconds) text += fmt::format(", about {}", format_duration(*sum.seconds));
+    if (sum.stale == 0) return images(plan.size()) + ", all up to date";
+    std::string text = fmt::format("{} of {} to render", sum.stale, images(plan.size()));
+    if (const std::string time = format_time(sum); !time.empty()) text += ", " + time;
     return text;
+}
+
+/// Holds the texts of one row, which are as wide as the widest of their column.
+using PlanRow = std::vector<std::string>;
+
+PlanRow row_of(const PlannedUnit& unit) {
+    const ImageOutline& outline = unit.outline;
+    const auto known = [](bool is_known, std::string text) { return is_known ? std::move(text) : std::string("-"); };
+    return {shown_text(unit.task.job.name),
+            !unit.is_stale()      ? "up to date"
+            : !unit.error.empty() ? "will fail"
+                                  : "render",
+            unit.is_stale() ? shown_text(unit.reason) : "-",
+            known(outline.width > 0, fmt::format("{}x{}", outline.width, outline.height)),
+            known(outline.spp > 0, fmt::format("{}", outline.spp)),
+            known(!outline.integrator.empty(), outline.integrator),
+            known(!outline.camera.empty(), shown_text(outline.camera)),
+            unit.is_stale() && unit.error.empty() ? format_estimate(unit.estimated_seconds) : "-",
+            shown_text(unit.task.job.output.string())};
 }
 
 }  // namespace
 
 std::string to_table(const BatchPlan& plan) {
-    std::size_t name_width = 5;
-    std::size_t reason_width = 3;
-    for (const PlannedUnit& unit : plan) {
-        name_width = std::max(name_width, shown_text(unit.task.job.name).size());
-        reason_width = std::max(reason_width, shown_text(unit.reason).size());
+    std::vector<PlanRow> rows{{"scene", "plan", "why", "size", "spp", "integrator", "camera", "estimate", "image"}};
+    for (const PlannedUnit& unit : plan) rows.push_back(row_of(unit));
+    std::string text;
+    for (const PlanRow& row : rows) {
+        for (std::size_t column = 0; column + 1 < row.size(); ++column) {
+            std::size_t width = 0;
+            for (const PlanRow& other : rows) width = std::max(width, other[column].size());
+            text += fmt::format("{:<{}}  ", row[column], width);
+        }
+        text += row.back() + "\n";
     }
-    const auto row = [&](const std::string& name, const std::string& plan_text, const std::string& why,
-                         const std::string& time, const std::string& image) {
-        return fmt::format("{:<{}}  {:<10}  {:<{}}  {:>9}  {}\n", name, name_width, plan_text, why, reason_width, time,
-                           image);
+    return text + failures(plan) + counted(plan) + failing(plan) + "\n";
+}
+
+std::string failures(const BatchPlan& plan) {
+    struct Failure {
+        std::string error;
+        std::size_t images = 0;
     };
-    std::string text = row("scene", "plan", "why", "estimate", "image");
-    for (const PlannedUnit& unit : plan)
-        text += row(shown_text(unit.task.job.name), unit.is_stale() ? "render" : "up to date",
-                    unit.is_stale() ? shown_text(unit.reason) : "-",
-                    unit.is_stale() ? format_estimate(unit.estimated_seconds) : "-",
-                    shown_text(unit.task.job.output.string()));
-    return text + counted(plan) + "\n";
+    std::vector<std::pair<std::string, Failure>> scenes;
+    for (const PlannedUnit& unit : plan) {
+        if (!unit.is_stale() || unit.error.empty()) continue;
+        const std::string scene = unit.task.job.scene.string();
+        auto found = std::ranges::find(scenes, scene, &std::pair<std::string, Failure>::first);
+        if (found == scenes.end()) found = scenes.insert(scenes.end(), {scene, {unit.error, 0}});
+        ++found->second.images;
+    }
+    std::string text;
+    for (const auto& [scene, failure] : scenes) {
+        text += fmt::format("{}: {} will fail\n", shown_text(scene), images(failure.images));
+        std::istringstream lines(failure.error);
+        for (std::string line; std::getline(lines, line);) text += "  " + shown_text(line) + "\n";
+    }
+    return text;
 }
 
 std::string to_json(const BatchPlan& plan) {
     using Json = nlohmann::ordered_json;
+    const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+    const auto number_or_null = [](int number) { return number > 0 ? Json(number) : Json(); };
     Json units = Json::array();
     for (const PlannedUnit& unit : plan) {
         const ImageJob& job = unit.task.job;
@@ -59,14 +118,23 @@ std::string to_json(const BatchPlan& plan) {
                          {"scene", job.scene.string()},
                          {"frame", job.frame ? Json(*job.frame) : Json()},
                          {"variant", job.variant ? Json(*job.variant) : Json()},
+                         {"camera", text_or_null(unit.outline.camera)},
                          {"image", job.output.string()},
                          {"stale", unit.is_stale()},
-                         {"reason", unit.is_stale() ? Json(unit.reason) : Json()},
+                         {"reason", text_or_null(unit.reason)},
+                         {"error", text_or_null(unit.error)},
+                         {"width", number_or_null(unit.outline.width)},
+                         {"height", number_or_null(unit.outline.height)},
+                         {"spp", number_or_null(unit.outline.spp)},
+                         {"integrator", text_or_null(unit.outline.integrator)},
                          {"estimated_seconds", unit.estimated_seconds ? Json(*unit.estimated_seconds) : Json()}});
     }
     const PlanTotals sum = totals(plan);
     const Json json{{"stale", sum.stale},
-                    {"estimated_seconds", sum.seconds ? Json(*sum.seconds) : Json()},
+                    {"failing", sum.failing},
+                    {"unknown", sum.unknown},
+                    {"known_seconds", sum.seconds},
+                    {"estimated_seconds", sum.unknown == 0 ? Json(sum.seconds) : Json()},
                     {"units", std::move(units)}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -83,7 +151,7 @@ std::string summary(const BatchPlan& plan) {
     for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
         text += fmt::format("{}{} {}", i == 0 ? ": " : "; ", reasons[i].first, reasons[i].second);
     if (reasons.size() > kMostReasons) text += "; ...";
-    return text;
+    return text + failing(plan);
 }
 
 }  // namespace etendue

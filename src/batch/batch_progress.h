@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 
@@ -46,24 +48,34 @@ struct BatchProgressLine {
     std::string state{};    ///< state of that image: "43%", "load"
     double elapsed = 0.0;   ///< seconds of the batch
     std::optional<double> left{};
+    std::chrono::system_clock::time_point now{};  ///< time of day, from which that of the end is told
 };
 /// Formats the line of progress in `width` characters at most; a name that is too long loses its beginning.
 [[nodiscard]] std::string format_line(const BatchProgressLine& line, int width);
 
+/// Returns the local time of day, "23:40", with the weekday or the date if it is not the day of `now`.
+[[nodiscard]] std::string format_clock(std::chrono::system_clock::time_point time,
+                                       std::chrono::system_clock::time_point now);
+
 class BatchProgress {
   public:
-    /// Shows the progress of a batch on stderr; nothing is written if `quiet`.
-    explicit BatchProgress(bool quiet);
+    /// Shows the progress of a batch on stderr, but for nothing if `quiet`, and appends every line to the file `log`
+    /// unless that is empty. Where stderr is no terminal, and in the file, there is a line of progress for each time
+    /// `between_lines`, and lines begin with the time. Throws UsageError if the file cannot be opened.
+    explicit BatchProgress(bool quiet, const std::filesystem::path& log = {},
+                           std::chrono::milliseconds between_lines = std::chrono::minutes(1));
     ~BatchProgress();
     BatchProgress(const BatchProgress&) = delete;
     BatchProgress& operator=(const BatchProgress&) = delete;
 
-    /// Shows the line, on a terminal, if it was not shown just now.
+    /// Shows the line if it was not shown just now.
     void update(BatchProgressLine line);
     /// Takes the line away, so that others can write.
     void clear();
     /// Writes a line that stays.
     void say(const std::string& text);
+    /// Writes a line that stays, even if all else is quiet.
+    void say_error(const std::string& text);
 
     /// Returns the seconds since the beginning.
     [[nodiscard]] double elapsed() const;
@@ -71,8 +83,14 @@ class BatchProgress {
   private:
     using Clock = std::chrono::steady_clock;
 
+    /// Appends a line to the log.
+    void record(const std::string& text);
+
     bool quiet_;
     bool terminal_;
+    std::ofstream log_{};
+    std::chrono::milliseconds between_lines_;
+    Clock::time_point last_line_ = Clock::now();
     bool is_drawn_ = false;
     Clock::time_point start_ = Clock::now();
     Clock::time_point drawn_{};

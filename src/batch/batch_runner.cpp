@@ -11,9 +11,12 @@
 #include "session/interrupt.h"
 #include "session/progress_display.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <exception>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,18 +30,36 @@ namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
 
-/// Returns what is known of a unit before anything is done.
-BatchUnit planned_unit(const PlannedUnit& planned, const fs::path& output) {
-    const ImageJob& job = planned.task.job;
+/// Returns what is known of a unit before it was looked at.
+BatchUnit unknown_unit(const BatchTask& task, const BatchOptions& options) {
+    const ImageJob& job = task.job;
     BatchUnit unit{.name = job.name,
                    .scene = job.scene.string(),
                    .frame = job.frame,
                    .variant = job.variant.value_or(""),
-                   .image = job.output.lexically_relative(output).string(),
-                   .outcome = planned.is_stale() ? UnitOutcome::NotStarted : UnitOutcome::UpToDate,
-                   .reason = planned.reason,
-                   .estimated_seconds = planned.estimated_seconds};
-    if (!planned.is_stale()) read_statistics(OutputPaths::beside(job.output).json, unit);
+                   .camera = job.camera.value_or(""),
+                   .image = job.output.lexically_relative(options.output).string()};
+    const fs::path shown = options.denoise ? denoised_path(unit.image) : fs::path(unit.image);
+    if (options.overrides.png) unit.preview = fs::path(shown).replace_extension(".png").string();
+    return unit;
+}
+
+/// Returns what is known of a unit before anything is done.
+BatchUnit planned_unit(const PlannedUnit& planned, const BatchOptions& options) {
+    BatchUnit unit = unknown_unit(planned.task, options);
+    unit.outcome = planned.is_stale() ? UnitOutcome::NotStarted : UnitOutcome::UpToDate;
+    unit.reason = planned.reason;
+    unit.estimated_seconds = planned.estimated_seconds;
+    if (unit.camera.empty()) unit.camera = planned.outline.camera;
+    if (!planned.is_stale()) {
+        read_statistics(OutputPaths::beside(planned.task.job.output).json, unit);
+        return unit;
+    }
+    unit.error = planned.error;
+    unit.width = planned.outline.width;
+    unit.height = planned.outline.height;
+    unit.spp_requested = planned.outline.spp;
+    unit.integrator = planned.outline.integrator;
     return unit;
 }
 
@@ -55,9 +76,10 @@ bool would_fail_here(const LedgerHistory::Entry& failure, const std::string& hos
 
 }  // namespace
 
-BatchRunner::BatchRunner(const BatchOptions& options, BatchPlan plan, LedgerHistory& history, BatchProgress& progress)
+BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tasks, LedgerHistory& history,
+                         BatchProgress& progress)
     : options_(options),
-      plan_(std::move(plan)),
+      tasks_(std::move(tasks)),
       history_(history),
       progress_(progress),
       books_(options.output),
@@ -72,16 +94,52 @@ BatchRunner::BatchRunner(const BatchOptions& options, BatchPlan plan, LedgerHist
     report_.started = utc_time();
     report_.host = this_process().host;
     report_.threads = options.threads > 0 ? options.threads : ThreadPool(0).thread_count();
-    report_.units.reserve(plan_.size());
+    for (const BatchTask& task : tasks_) report_.units.push_back(unknown_unit(task, options_));
+    write_reports(true);
+}
+
+const BatchPlan& BatchRunner::plan() {
+    plan_ = make_plan(std::move(tasks_), options_, history_,
+                      [&](const std::string& what, const BatchPlan& so_far, std::size_t of) {
+                          progress_.update({.done = so_far.size(), .of = of, .current = what, .state = "planning"});
+                          if (!books_.are_reports_due()) return;
+                          report_plan(so_far);
+                          write_reports(true);
+                      });
+    tasks_.clear();
+    progress_.clear();
+    if (interrupt_requested()) {
+        report_.interrupted = true;
+        abandon();
+        return plan_;
+    }
+    arrange(plan_, options_.order);
+    report_.units.resize(plan_.size());
+    report_plan(plan_);
     for (const PlannedUnit& unit : plan_) {
-        report_.units.push_back(planned_unit(unit, options.output));
         if (!unit.is_stale()) continue;
         ++stale_;
-        time_left_.add(unit.estimated_seconds);
+        time_left_.add(unit.error.empty() ? unit.estimated_seconds : 0.0);
+        std::istringstream lines(unit.error);
+        for (std::string line; std::getline(lines, line);) said_[unit.task.job.scene].insert(line);
     }
+    return plan_;
+}
+
+void BatchRunner::report_plan(const BatchPlan& plan) {
+    for (std::size_t i = 0; i < plan.size(); ++i) report_.units[i] = planned_unit(plan[i], options_);
+}
+
+void BatchRunner::abandon() {
+    report_.state = BatchState::Ended;
+    report_.ended = utc_time();
+    write_reports(true);
+    tidy();
 }
 
 void BatchRunner::run() {
+    report_.state = BatchState::Running;
+    report_.seconds_left = time_left_.left(0.0, 0.0);
     books_.append({.kind = LedgerEventKind::BatchStarted, .units = plan_.size()});
     std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < plan_.size(); ++i)
@@ -100,6 +158,8 @@ void BatchRunner::run() {
     progress_.clear();
     report_.interrupted = interrupt_requested();
     report_.ended = utc_time();
+    report_.state = BatchState::Ended;
+    report_.seconds_left.reset();
     books_.append({.kind = LedgerEventKind::BatchFinished,
                    .seconds = seconds_since(start_),
                    .units = plan_.size(),
@@ -128,7 +188,8 @@ void BatchRunner::remove_checkpoints(std::size_t index) {
 bool BatchRunner::work_on(std::size_t index) {
     BatchUnit& unit = report_.units[index];
     const PlannedUnit& planned = plan_[index];
-    time_left_.begin(planned.estimated_seconds);
+    unit.error.clear();  // what was foreseen is found out now
+    time_left_.begin(planned.error.empty() ? planned.estimated_seconds : 0.0);
     bool is_over = true;
     try {
         if (invalid_scenes_.contains(planned.task.job.scene)) {
@@ -148,8 +209,9 @@ bool BatchRunner::work_on(std::size_t index) {
         ++done_;
         write_reports(false);
     } else {
+        if (unit.outcome == UnitOutcome::Running) unit.outcome = UnitOutcome::RunningElsewhere;
         time_left_.end(std::nullopt);
-        time_left_.add(planned.estimated_seconds);
+        time_left_.add(planned.error.empty() ? planned.estimated_seconds : 0.0);
     }
     return is_over;
 }
@@ -217,7 +279,12 @@ bool BatchRunner::make(std::size_t index, BatchLock& lock) {
         ++unit.attempts;
         begin_record(index, lock);
         const Clock::time_point start = Clock::now();
-        const Attempt result = attempt(index, how, lock);
+        unit.outcome = UnitOutcome::Running;
+        write_reports(false);
+        Attempt result = attempt(index, how, lock);
+        if (result.end == AttemptEnd::Done && options_.denoise) result = denoise(index, lock);
+        unit.fraction.reset();
+        unit.seconds_left.reset();
         const double seconds = seconds_since(start);
         if (result.end == AttemptEnd::LockLost) return false;
         const bool is_refused = was_refused(result);
@@ -238,30 +305,66 @@ bool BatchRunner::make(std::size_t index, BatchLock& lock) {
 
 Attempt BatchRunner::attempt(std::size_t index, const AttemptOptions& how, BatchLock& lock) {
     const BatchTask& task = plan_[index].task;
-    const auto keep_alive = [&lock] { return lock.keep_alive(); };
     if (options_.in_process) {
         progress_.clear();
-        return attempt_here(task, options_, how, fmt::format("[{}/{}] {}", done_ + 1, stale_, task.job.name),
-                            keep_alive, *threads_);
+        return attempt_here(
+            task, options_, how, fmt::format("[{}/{}] {}", done_ + 1, stale_, task.job.name),
+            [&] {
+                // Nothing else touches the report while the image is rendered.
+                write_reports(false);
+                return lock.keep_alive();
+            },
+            *threads_);
     }
     const Clock::time_point start = Clock::now();
     ChildProgress last{.phase = "start"};
-    // What `render` says when it is done, the batch says in its own words.
-    const std::string own_words = task.job.output.string() + ": ";
-    const AttemptCallbacks callbacks{
-        .on_message =
-            [&](const std::string& line) {
-                if (!line.starts_with(own_words)) progress_.say(fmt::format("{}: {}", task.job.name, line));
-            },
-        .on_progress = [&](const ChildProgress& progress) { last = progress; },
-        .keep_alive =
-            [&] {
-                const bool renders = last.phase == "render";
-                show(task.job.name, renders ? fmt::format("{:.0f}%", std::floor(last.fraction * 100.0)) : last.phase,
-                     seconds_since(start), renders ? last.fraction : 0.0);
-                return lock.keep_alive();
-            }};
+    const AttemptCallbacks callbacks{.on_message = [&](const std::string& line) { pass_on(task.job, line); },
+                                     .on_progress = [&](const ChildProgress& progress) { last = progress; },
+                                     .keep_alive =
+                                         [&] {
+                                             follow(index, last, seconds_since(start));
+                                             return lock.keep_alive();
+                                         }};
     return attempt_in_child(task, options_, how, callbacks);
+}
+
+Attempt BatchRunner::denoise(std::size_t index, BatchLock& lock) {
+    const BatchTask& task = plan_[index].task;
+    const Clock::time_point start = Clock::now();
+    return denoise_in_child(task, options_,
+                            {.on_message = [&](const std::string& line) { pass_on(task.job, line); },
+                             .on_progress = [](const ChildProgress&) {},
+                             .keep_alive =
+                                 [&] {
+                                     follow(index, {.phase = "denoise"}, seconds_since(start));
+                                     return lock.keep_alive();
+                                 }});
+}
+
+void BatchRunner::pass_on(const ImageJob& job, const std::string& line) {
+    // What `render` says when it is done, the batch says in its own words.
+    if (line.starts_with(job.output.string() + ": ")) return;
+    const bool is_of_scene = line.starts_with("note: ") || line.starts_with("warning: ") || line.starts_with("error: ");
+    if (is_of_scene && !said_[job.scene].insert(line).second) return;
+    progress_.say(fmt::format("{}: {}", job.name, line));
+}
+
+void BatchRunner::follow(std::size_t index, const ChildProgress& now, double seconds) {
+    constexpr double kLeastFraction = 0.02;
+    BatchUnit& unit = report_.units[index];
+    const bool renders = now.phase == "render";
+    const double fraction = renders ? now.fraction : 0.0;
+    show(unit.name, renders ? fmt::format("{:.0f}%", std::floor(fraction * 100.0)) : now.phase, seconds, fraction);
+    if (renders) {
+        unit.fraction = fraction;
+        const std::uint64_t pixels = static_cast<std::uint64_t>(unit.width) * static_cast<std::uint64_t>(unit.height);
+        if (pixels > 0) unit.spp = static_cast<int>(now.samples / pixels);
+    }
+    if (fraction > kLeastFraction)
+        unit.seconds_left = now.seconds * (1.0 - fraction) / fraction;
+    else if (unit.estimated_seconds)
+        unit.seconds_left = std::max(0.0, *unit.estimated_seconds - seconds);
+    write_reports(false);
 }
 
 void BatchRunner::begin_record(std::size_t index, const BatchLock& lock) {
@@ -329,17 +432,17 @@ void BatchRunner::finish(std::size_t index, const Attempt& result, double second
     unit.outcome = UnitOutcome::Failed;
     unit.error = result.error;
     ++failed_;
-    progress_.clear();
-    log_error("[{}/{}] {}: {}", done_ + 1, stale_, unit.name, failure_in_words(result));
+    progress_.say_error(fmt::format("[{}/{}] {}: {}", done_ + 1, stale_, unit.name, failure_in_words(result)));
 }
 
 void BatchRunner::show(const std::string& name, const std::string& state, double seconds, double fraction) {
+    report_.seconds_left = time_left_.left(seconds, fraction);
     progress_.update({.done = done_,
                       .failed = failed_,
                       .of = stale_,
                       .current = name,
                       .state = state,
-                      .left = time_left_.left(seconds, fraction)});
+                      .left = report_.seconds_left});
 }
 
 void BatchRunner::wait_for_others(const std::vector<std::size_t>& held) {
@@ -352,12 +455,11 @@ void BatchRunner::wait_for_others(const std::vector<std::size_t>& held) {
     ::poll(nullptr, 0, static_cast<int>(kBetweenTries.count()));
 }
 
-void BatchRunner::write_reports(bool is_end) {
+void BatchRunner::write_reports(bool in_any_case) {
+    if (!in_any_case && !books_.are_reports_due()) return;
     report_.seconds = seconds_since(start_);
-    if (is_end)
-        books_.write_last_reports(report_);
-    else
-        books_.write_reports(report_);
+    report_.written = utc_time();
+    books_.write_reports(report_);
 }
 
 void BatchRunner::tidy() const {

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -23,12 +24,19 @@ namespace etendue {
 
 class BatchRunner {
   public:
-    /// `options`, `history` and `progress` outlive it.
-    BatchRunner(const BatchOptions& options, BatchPlan plan, LedgerHistory& history, BatchProgress& progress);
+    /// `options`, `history` and `progress` outlive it. A report of images of which nothing is known is written.
+    BatchRunner(const BatchOptions& options, std::vector<BatchTask> tasks, LedgerHistory& history,
+                BatchProgress& progress);
+
+    /// Makes the plan. Ends early when it is interrupted.
+    const BatchPlan& plan();
 
     /// Makes every stale image of the plan that can be made, or waits until another process has. Ends early when it is
     /// interrupted. Writes ledger and reports as it goes on.
     void run();
+
+    /// Ends the batch before anything is made.
+    void abandon();
 
     [[nodiscard]] const BatchReport& report() const { return report_; }
     /// Returns false if something could not be written into the ledger or the reports; it was said when it happened.
@@ -44,9 +52,16 @@ class BatchRunner {
     bool work_under(BatchLock& lock, std::size_t index);
     /// Returns whether another process has made the image, or failed to, since this one looked at it last.
     bool was_made_elsewhere(std::size_t index, const BatchLock& lock);
+    /// Takes the plan over into the report, as far as it is made.
+    void report_plan(const BatchPlan& plan);
+    /// Passes on what a process says about an image, but for notes and warnings that its scene has had already.
+    void pass_on(const ImageJob& job, const std::string& line);
+    /// Tells what a process does that makes an image.
+    void follow(std::size_t index, const ChildProgress& now, double seconds);
     /// Tries until the image is made, or there is no more hope; returns false if the lock was lost.
     bool make(std::size_t index, BatchLock& lock);
     Attempt attempt(std::size_t index, const AttemptOptions& how, BatchLock& lock);
+    Attempt denoise(std::size_t index, BatchLock& lock);
     /// Says why an attempt failed; what its process has said itself is not said again, unless `quiet`.
     [[nodiscard]] std::string failure_in_words(const Attempt& attempt) const;
     void begin_record(std::size_t index, const BatchLock& lock);
@@ -57,11 +72,13 @@ class BatchRunner {
 
     void show(const std::string& name, const std::string& state, double seconds, double fraction);
     void wait_for_others(const std::vector<std::size_t>& held);
-    void write_reports(bool is_end);
+    /// Writes the report as it is now, if that is due or `in_any_case`.
+    void write_reports(bool in_any_case);
     void tidy() const;
 
     const BatchOptions& options_;
-    BatchPlan plan_;
+    std::vector<BatchTask> tasks_;  ///< until they are planned
+    BatchPlan plan_{};
     LedgerHistory& history_;
     BatchProgress& progress_;
     BatchBooks books_;
@@ -71,6 +88,7 @@ class BatchRunner {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     TimeLeft time_left_{};
     std::set<std::filesystem::path> invalid_scenes_{};
+    std::map<std::filesystem::path, std::set<std::string>> said_{};  ///< lines about each scene
     std::size_t stale_ = 0;
     std::size_t done_ = 0;  ///< images of the stale ones that are done
     std::size_t failed_ = 0;

@@ -7,7 +7,11 @@
 #include "picture/aov_setup.h"
 #include "picture/output_paths.h"
 #include "session/image_files.h"
+#include "session/usage_error.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <exception>
 #include <map>
 #include <optional>
@@ -17,6 +21,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
 
 namespace etendue {
 
@@ -65,33 +71,129 @@ std::string file_part(const std::string& variant) {
     return part;
 }
 
-struct ScenePart {
-    std::optional<std::string> variant{};
-    std::string suffix{};  ///< follows the scene's name in names of image files: ".red"
-    std::string label{};   ///< follows the scene's name in what people read: " variant red"
-};
-
-/// The variants of a scene, or the scene as it is.
-std::vector<ScenePart> parts_of(const fs::path& scene, const std::vector<std::string>& variants) {
-    if (variants.empty()) return {{}};
-    std::vector<ScenePart> parts;
-    std::set<std::string> seen;
+/// Returns a suffix for each name, of which none is another's: ".red".
+std::vector<std::string> suffixes_of(const std::vector<std::string>& names) {
     std::set<std::string> used;
     std::map<std::string, int> numbers;
-    for (const std::string& variant : variants) {
-        if (!seen.insert(variant).second) continue;
-        if (variant.find('\0') != std::string::npos)
-            throw SceneError({scene.string(), {}},
-                             fmt::format("the material variant '{}' cannot be asked for, since its name holds the "
-                                         "character NUL, where words of a command line end; rename it",
-                                         shown(variant)));
-        const std::string part = file_part(variant);
+    std::vector<std::string> suffixes;
+    for (const std::string& name : names) {
+        const std::string part = file_part(name);
         std::string suffix = "." + part;
         while (!used.insert(suffix).second)
             suffix = fmt::format(".{}-{}", part, ++numbers.try_emplace(part, 1).first->second);
-        parts.push_back({variant, suffix, " variant " + variant});
+        suffixes.push_back(suffix);
     }
-    return parts;
+    return suffixes;
+}
+
+/// Returns each of the names once. Throws SceneError if no command line can ask for one; `what` they name.
+std::vector<std::string> distinct_names(const fs::path& scene, const std::vector<std::string>& names,
+                                        const char* what) {
+    std::vector<std::string> distinct;
+    std::set<std::string> seen;
+    for (const std::string& name : names) {
+        if (!seen.insert(name).second) continue;
+        if (name.find('\0') != std::string::npos)
+            throw SceneError({scene.string(), {}},
+                             fmt::format("the {} '{}' cannot be asked for, since its name holds the character NUL, "
+                                         "where words of a command line end; rename it",
+                                         what, shown(name)));
+        distinct.push_back(name);
+    }
+    return distinct;
+}
+
+struct ScenePart {
+    std::optional<std::string> variant{};
+    std::optional<std::string> camera{};
+    std::string variant_suffix{};  ///< ".red"
+    std::string camera_suffix{};   ///< ".front"
+    std::string label{};           ///< follows the scene's name in what people read: " variant red camera front"
+};
+
+/// Returns an entry for each variant and camera of a scene, or the scene as it is.
+std::vector<ScenePart> parts_of(const fs::path& scene, const SceneNames& names) {
+    std::vector<ScenePart> parts{{}};
+    if (const auto variants = distinct_names(scene, names.variants, "material variant"); !variants.empty()) {
+        parts.clear();
+        const std::vector<std::string> suffixes = suffixes_of(variants);
+        for (std::size_t i = 0; i < variants.size(); ++i)
+            parts.push_back(
+                {.variant = variants[i], .variant_suffix = suffixes[i], .label = " variant " + variants[i]});
+    }
+    const auto cameras = distinct_names(scene, names.cameras, "camera");
+    if (cameras.empty()) return parts;
+    const std::vector<std::string> suffixes = suffixes_of(cameras);
+    std::vector<ScenePart> all;
+    for (const ScenePart& part : parts)
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            ScenePart& one = all.emplace_back(part);
+            one.camera = cameras[i];
+            one.camera_suffix = suffixes[i];
+            one.label += " camera " + cameras[i];
+        }
+    return all;
+}
+
+constexpr std::array<std::string_view, 4> kPlaceholders{"{scene}", "{variant}", "{camera}", "{frame}"};
+
+std::string replaced(std::string text, std::string_view what, std::string_view with) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+        text.replace(at, what.size(), with);
+    return text;
+}
+
+/// Puts `value` in the place of `placeholder`; where there is no value, what parts it from what comes before goes, too.
+std::string put(std::string name, std::string_view placeholder, const std::string& value) {
+    if (value.empty())
+        for (const char* mark : {".", "-", "_"}) name = replaced(name, mark + std::string(placeholder), "");
+    return replaced(name, placeholder, value);
+}
+
+/// Returns the path of an image below the output directory, without extension; a frame's number is "####" there.
+std::string image_name(const std::string& pattern, const std::string& scene, const ScenePart& part, bool is_sequence) {
+    if (pattern.empty()) return scene + part.variant_suffix + part.camera_suffix;
+    const auto without_dot = [](const std::string& suffix) { return suffix.empty() ? suffix : suffix.substr(1); };
+    std::string name = put(pattern, "{frame}", is_sequence ? "####" : "");
+    name = put(name, "{variant}", without_dot(part.variant_suffix));
+    name = put(name, "{camera}", without_dot(part.camera_suffix));
+    return put(name, "{scene}", scene);
+}
+
+/// True if the glob matches the image's name, or its scene's, or the last part of that, or a folder above.
+bool matches(const std::string& glob, const BatchTask& task) {
+    std::vector<std::string> names{task.id, task.scene_name, fs::path(task.scene_name).filename().string()};
+    for (fs::path folder = fs::path(task.scene_name).parent_path(); !folder.empty(); folder = folder.parent_path())
+        names.push_back(folder.string());
+    return std::ranges::any_of(names,
+                               [&](const std::string& name) { return fnmatch(glob.c_str(), name.c_str(), 0) == 0; });
+}
+
+/// Returns the first names of the images, for a message.
+std::string some_names(const std::vector<BatchTask>& tasks) {
+    constexpr std::size_t kMost = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kMost, tasks.size()); ++i)
+        text += fmt::format("{}{}", i == 0 ? "" : ", ", shown(tasks[i].id));
+    return tasks.size() > kMost ? text + fmt::format(" and {} more", tasks.size() - kMost) : text;
+}
+
+/// Leaves what --only and --exclude choose.
+void choose(std::vector<BatchTask>& tasks, const BatchOptions& options) {
+    if (tasks.empty()) return;
+    const auto any = [](const std::vector<std::string>& globs, const BatchTask& task) {
+        return std::ranges::any_of(globs, [&](const std::string& glob) { return matches(glob, task); });
+    };
+    for (const auto& [option, globs] : {std::pair("--only", &options.only), std::pair("--exclude", &options.exclude)})
+        for (const std::string& glob : *globs)
+            if (std::ranges::none_of(tasks, [&](const BatchTask& task) { return matches(glob, task); }))
+                throw UsageError(
+                    fmt::format("{} '{}' matches no image; there are {} (a glob matches an image's or a "
+                                "scene's name, or a folder: '*' any text, '?' a character)",
+                                option, glob, some_names(tasks)));
+    if (!options.only.empty()) std::erase_if(tasks, [&](const BatchTask& task) { return !any(options.only, task); });
+    std::erase_if(tasks, [&](const BatchTask& task) { return any(options.exclude, task); });
+    if (tasks.empty()) throw UsageError("--only and --exclude leave no image");
 }
 
 /// Names of the layers of the scene's images that have files of their own, as far as settings tell: those that are
@@ -123,6 +225,9 @@ std::vector<fs::path> files_of(const std::vector<BatchTask>& tasks, const BatchO
                                              file.string()));
             files.push_back(std::move(file));
         }
+        if (!options.denoise) continue;
+        files.push_back(denoised_path(task.job.output));
+        files.push_back(fs::path(files.back()).replace_extension(".png"));
     }
     return files;
 }
@@ -151,19 +256,45 @@ std::vector<fs::path> batch_files(const fs::path& output) {
     return {output / "report.json", output / "index.html", output / "ledger.jsonl"};
 }
 
-std::vector<BatchTask> collect_tasks(const BatchOptions& options, const FindVariants& find_variants) {
+fs::path denoised_path(const fs::path& output) {
+    return fs::path(output).replace_extension(".denoised.exr");
+}
+
+void check_name_pattern(const std::string& pattern) {
+    const auto fail = [&](const std::string& why) { throw UsageError(fmt::format("--name '{}': {}", pattern, why)); };
+    std::string rest = pattern;
+    for (const std::string_view placeholder : kPlaceholders) rest = replaced(rest, placeholder, "x");
+    if (rest.find_first_of("{}") != std::string::npos)
+        fail(fmt::format("braces stand around what is put in only: {}", fmt::join(kPlaceholders, ", ")));
+    const fs::path path(rest);
+    if (!path.has_filename() || path.filename() == "." || path.extension() == ".exr")
+        fail("it must end in the name of an image, without .exr");
+    if (path.is_absolute() || std::ranges::find(path, "..") != path.end())
+        fail("it names images below the output directory");
+    if (fs::path(pattern).parent_path().string().find("{frame}") != std::string::npos)
+        fail("{frame} must stand in the last part, which names the file");
+}
+
+std::vector<BatchTask> collect_tasks(const BatchOptions& options, const FindNames& find_names) {
     std::vector<BatchTask> tasks;
     for (const FoundScene& scene : find_scenes(options.roots)) {
-        const auto variants = options.all_variants ? find_variants(scene.path) : std::vector<std::string>();
-        for (const ScenePart& part : parts_of(scene.path, variants)) {
-            const fs::path output = options.output / (scene.name + part.suffix + ".exr");
+        SceneNames names;
+        if (options.all_variants || options.all_cameras) names = find_names(scene.path);
+        if (!options.all_variants) names.variants.clear();
+        if (!options.all_cameras) names.cameras.clear();
+        const bool is_sequence = options.overrides.has("/frames") || find_frames(scene.path).has_value();
+        for (const ScenePart& part : parts_of(scene.path, names)) {
+            const fs::path output =
+                options.output / (image_name(options.name_pattern, scene.name, part, is_sequence) + ".exr");
             for (ImageJob& job : image_jobs(scene.path, output, scene.name + part.label, options.overrides)) {
                 job.variant = part.variant;
+                job.camera = part.camera;
                 const fs::path below = job.output.lexically_relative(options.output);
-                tasks.push_back({std::move(job), output, (below.parent_path() / below.stem()).string()});
+                tasks.push_back({std::move(job), output, (below.parent_path() / below.stem()).string(), scene.name});
             }
         }
     }
+    choose(tasks, options);
     require_scenes_kept(files_of(tasks, options), tasks, options);
     return tasks;
 }

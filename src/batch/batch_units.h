@@ -15,17 +15,29 @@ struct BatchTask {
     ImageJob job;
     std::filesystem::path render_output;  ///< path that `etendue render` is told to write: without the frame's number
     std::string id;                       ///< path of the image below the output directory, without its extension
+    std::string scene_name{};             ///< path that the scene has below the directory that it was found in
 };
+
+/// Returns the name of the image without noise beside the image `output`.
+[[nodiscard]] std::filesystem::path denoised_path(const std::filesystem::path& output);
 
 /// The batch's own files in its directory `output`.
 [[nodiscard]] std::vector<std::filesystem::path> batch_files(const std::filesystem::path& output);
 
-/// Names of the variants that the scene directory or file `scene` offers.
-using FindVariants = std::function<std::vector<std::string>(const std::filesystem::path& scene)>;
+/// Names what a scene offers that images can be made of.
+struct SceneNames {
+    std::vector<std::string> variants{};
+    std::vector<std::string> cameras{};
+};
+/// Finds the names of the scene directory or file `scene`.
+using FindNames = std::function<SceneNames(const std::filesystem::path& scene)>;
 
-/// The tasks, those of one scene beside each other. `find_variants` is asked once for each scene if all variants are
-/// wanted. Throws SceneError if two files of the images or the batch would have one name, and ReplacedInput if any of
-/// them is an input of a scene.
-[[nodiscard]] std::vector<BatchTask> collect_tasks(const BatchOptions& options, const FindVariants& find_variants);
+/// Throws UsageError that says why `pattern` cannot name images below the output directory, if it cannot.
+void check_name_pattern(const std::string& pattern);
+
+/// Collects the tasks, those of one scene beside each other. `find_names` is asked once for each scene if all variants
+/// or cameras are wanted. Throws UsageError if --only or --exclude name nothing or leave nothing, SceneError if two
+/// files of the images or the batch would have one name, and ReplacedInput if any of them is an input of a scene.
+[[nodiscard]] std::vector<BatchTask> collect_tasks(const BatchOptions& options, const FindNames& find_names);
 
 }  // namespace etendue

@@ -11,12 +11,15 @@
 #include "cli/settings_options.h"
 #include "core/byte_size.h"
 #include "core/error.h"
-#include "core/log.h"
 #include "core/standard_output.h"
+#include "process/run_command.h"
 #include "session/interrupt.h"
+#include "session/option_check.h"
+#include "session/usage_error.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,9 +38,17 @@ namespace fs = std::filesystem;
 /// Less may not be enough for the program and its libraries to say what is wrong: bytes.
 constexpr std::uint64_t kLeastMemoryLimit = std::uint64_t{256} << 20u;
 
-/// Makes the output directory. Throws IoError if nothing can be written in it: better now than after the first image.
+const std::map<std::string, BatchOrder> kOrders{{"shortest", BatchOrder::Shortest},
+                                                {"longest", BatchOrder::Longest},
+                                                {"name", BatchOrder::Name},
+                                                {"newest", BatchOrder::Newest}};
+
+/// Makes the output directory. Throws UsageError if a file is in its place, IoError if nothing can be written in it:
+/// better now than after the first image.
 void prepare_output(const fs::path& output) {
     std::error_code error;
+    if (fs::exists(output, error) && !fs::is_directory(output, error))
+        throw UsageError(fmt::format("--output '{}' is a file: name a directory for the images", output.string()));
     fs::create_directories(output, error);
     if (error) throw IoError(fmt::format("cannot make {}: {}", output.string(), error.message()));
     // What the directory allows is not all that counts: a whole file system may be read-only.
@@ -58,36 +69,95 @@ ExitCode exit_code_of(const BatchRunner& runner) {
     return is_whole ? ExitCode::Success : ExitCode::RenderFailed;
 }
 
-ExitCode run_batch(const BatchOptions& options) {
-    BatchProgress progress(options.quiet);
-    const auto look = [&](const fs::path& scene) { return find_variants(scene, options); };
-    std::vector<BatchTask> tasks = collect_tasks(options, look);
-    if (tasks.empty()) {
-        log_error("error: no scene directory was found; a scene directory holds a render.json or a glTF file");
-        return ExitCode::InvalidScene;
-    }
-    if (!options.dry_run) prepare_output(options.output);
-    LedgerHistory history(options.output / "ledger.jsonl");
-    history.read_new();
-    BatchPlan plan =
-        make_plan(std::move(tasks), options, history, [&](const std::string& what, std::size_t done, std::size_t of) {
-            progress.update({.done = done, .of = of, .current = what, .state = "planning"});
+/// True if all images that were to be made fail because of options that fit none of the scenes.
+bool is_command_line_wrong(const BatchPlan& plan) {
+    const PlanTotals sum = totals(plan);
+    return sum.stale > 0 && sum.failing == sum.stale && std::ranges::all_of(plan, [](const PlannedUnit& unit) {
+               return !unit.is_stale() || unit.error.starts_with("error: --");
+           });
+}
+
+/// Runs the command that is to follow a batch, with what became of that in its environment.
+void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitCode code, BatchProgress& progress) {
+    const BatchTotals sum = totals(report);
+    const CommandResult result = run_command(
+        {"env", "ETENDUE_OUTPUT=" + report.output_directory,
+         fmt::format("ETENDUE_EXIT_CODE={}", static_cast<int>(code)), fmt::format("ETENDUE_RENDERED={}", sum.rendered),
+         fmt::format("ETENDUE_UP_TO_DATE={}", sum.up_to_date), fmt::format("ETENDUE_FAILED={}", sum.failed), "sh", "-c",
+         options.on_finish});
+    for (const std::string& text : {result.out, result.err})
+        if (!text.empty()) progress.say("--on-finish: " + text.substr(0, text.find_last_not_of('\n') + 1));
+    if (result.exit_code != 0)
+        progress.say_error(fmt::format("error: --on-finish: the command ended with exit code {}", result.exit_code));
+}
+
+/// Leaves the images that failed last time, or were not tried as others of their scene had failed.
+void keep_failed(std::vector<BatchTask>& tasks, const LedgerHistory& history) {
+    std::erase_if(tasks, [&](const BatchTask& task) {
+        const LedgerHistory::Entry* const last = history.find(task.id);
+        return last == nullptr ||
+               (last->kind != LedgerEventKind::UnitFailed && last->kind != LedgerEventKind::UnitNotTried);
+    });
+}
+
+ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, const LedgerHistory& history,
+                 BatchProgress& progress) {
+    BatchPlan plan = make_plan(
+        std::move(tasks), options, history, [&](const std::string& what, const BatchPlan& so_far, std::size_t of) {
+            progress.update({.done = so_far.size(), .of = of, .current = what, .state = "planning"});
         });
     progress.clear();
     if (interrupt_requested()) {
-        if (!options.dry_run) BatchLocks(options.output).tidy();
         progress.say("interrupted before anything was rendered");
         return interrupt_exit_code();
     }
-    if (options.dry_run) {
-        print(options, to_json(plan), to_table(plan));
-        return ExitCode::Success;
+    arrange(plan, options.order);
+    print(options, to_json(plan), to_table(plan));
+    if (is_command_line_wrong(plan)) return ExitCode::UsageError;
+    return totals(plan).failing > 0 ? ExitCode::InvalidScene : ExitCode::Success;
+}
+
+ExitCode run_batch(const BatchOptions& options) {
+    check_options(options.overrides);
+    if (!options.name_pattern.empty()) check_name_pattern(options.name_pattern);
+    const bool needs_times = options.order == BatchOrder::Shortest || options.order == BatchOrder::Longest;
+    if (needs_times && options.no_probe)
+        throw UsageError("--order: the shortest and the longest are known by the estimates that --no-probe leaves out");
+    BatchProgress progress(options.quiet, options.log);
+    const auto look = [&](const fs::path& scene) { return find_names(scene, options); };
+    std::vector<BatchTask> tasks = collect_tasks(options, look);
+    if (tasks.empty()) {
+        progress.say_error("error: no scene directory was found; a scene directory holds a render.json or a glTF file");
+        return ExitCode::InvalidScene;
+    }
+    LedgerHistory history(options.output / "ledger.jsonl");
+    history.read_new();
+    if (options.only_failed) {
+        keep_failed(tasks, history);
+        if (tasks.empty()) {
+            progress.say(fmt::format("--failed: no image in {} failed last time", options.output.string()));
+            return ExitCode::Success;
+        }
+    }
+    if (options.dry_run) return run_dry(std::move(tasks), options, history, progress);
+    prepare_output(options.output);
+    BatchRunner runner(options, std::move(tasks), history, progress);
+    const BatchPlan& plan = runner.plan();
+    if (interrupt_requested()) {
+        progress.say("interrupted before anything was rendered");
+        return interrupt_exit_code();
     }
     progress.say(summary(plan));
-    BatchRunner runner(options, std::move(plan), history, progress);
+    if (const std::string wrong = failures(plan); !wrong.empty()) progress.say(wrong.substr(0, wrong.size() - 1));
+    if (is_command_line_wrong(plan)) {
+        runner.abandon();
+        return ExitCode::UsageError;
+    }
     runner.run();
     print(options, to_json(runner.report()), to_table(runner.report(), options.output.string()));
-    return exit_code_of(runner);
+    const ExitCode code = exit_code_of(runner);
+    if (!options.on_finish.empty()) run_on_finish(options, runner.report(), code, progress);
+    return code;
 }
 
 void add_own_options(CLI::App& command, BatchOptions& options) {
@@ -102,7 +172,33 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
     command.add_flag("--variants", options.all_variants,
                      "Render every set of materials that a scene's file offers (KHR_materials_variants) to an image of "
                      "its own, NAME.VARIANT.exr");
-    command.add_flag("--dry-run", options.dry_run, "Print what would be rendered, why and for how long; write nothing");
+    command
+        .add_option_function<std::string>(
+            "--cameras", [&options](const std::string&) { options.all_cameras = true; },
+            "all: render every camera of a scene to an image of its own, NAME.CAMERA.exr")
+        ->check(CLI::IsMember({"all"}));
+    command.add_option("--name", options.name_pattern,
+                       "Pattern of the images' names below the output directory, without .exr, of {scene}, {variant}, "
+                       "{camera} and {frame}, such as {scene}/{camera}.{frame} (default: "
+                       "{scene}.{variant}.{camera}.{frame})");
+    const auto add_globs = [&](const char* name, std::vector<std::string>& globs, const char* help) {
+        command.add_option(name, globs, help)->allow_extra_args(false);
+    };
+    add_globs("--only", options.only,
+              "Make only images whose name, scene or folder matches this glob, such as 'shots/*' or '*.00[0-4]?'; may "
+              "be repeated");
+    add_globs("--exclude", options.exclude, "Leave out images that match this glob; may be repeated");
+    command.add_flag("--failed", options.only_failed, "Make only images that failed last time");
+    command
+        .add_option_function<std::string>(
+            "--order", [&options](const std::string& text) { options.order = kOrders.at(text); },
+            "Which images come first, by the estimates, by name, or by the time of a scene's newest file (default: by "
+            "directory and scene)")
+        ->check(CLI::IsMember(kOrders));
+    command.add_flag("--denoise", options.denoise,
+                     "Also write each image without its noise, NAME.denoised.exr and .png; adds --aov denoising");
+    command.add_flag("--dry-run", options.dry_run,
+                     "Print what would be rendered, why, for how long, and what would fail; write nothing");
     command.add_flag("--no-probe", options.no_probe,
                      "No estimate of time, which takes a second for each scene that is stale");
     command.add_option("--retries", options.retries, "Attempts after one that crashed or could not read or write")
@@ -135,6 +231,18 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
             },
             "Memory that the render of an image may take, such as 8G; one that needs more fails, the others go on")
         ->excludes(in_process);
+    command
+        .add_flag_callback(
+            "--keep-sums", [&options] { options.keep_sums_after = 0.0; },
+            "Keep the sums of every finished image, NAME.sums, from which more samples go on (default: of renders that "
+            "take more than a minute)")
+        ->excludes(command.add_flag_callback(
+            "--no-keep-sums", [&options] { options.keep_sums_after.reset(); }, "Keep no sums of finished images"));
+    command.add_option("--log", options.log,
+                       "File to which every line of progress, notes and errors is appended, with its time");
+    command.add_option("--on-finish", options.on_finish,
+                       "Command for sh -c at the end of the batch; $ETENDUE_OUTPUT, $ETENDUE_EXIT_CODE, "
+                       "$ETENDUE_RENDERED, $ETENDUE_UP_TO_DATE and $ETENDUE_FAILED tell it what came of that");
     command.add_flag("--quiet", options.quiet, "No progress, notes, warnings or summary; errors only");
     command.add_flag("--json", options.json, "Print the report, or with --dry-run the plan, as JSON on stdout");
 }
@@ -147,7 +255,16 @@ void add_batch_command(CLI::App& app, Action& action) {
     add_own_options(*command, *options);
     const std::size_t own = command->get_options().size();
     add_settings_options(*command, options->overrides);
-    command->get_option("--variants")->excludes(command->get_option("--variant"));
+    add_png_option(*command, options->overrides);
+    set_group(*command, "Which images",
+              {"--variants", "--cameras", "--name", "--only", "--exclude", "--failed", "--force", "--order"});
+    set_group(*command, "How they are made",
+              {"--threads", "--dry-run", "--no-probe", "--retries", "--checkpoint-every", "--stall-minutes",
+               "--in-process", "--max-memory", "--denoise", "--keep-sums", "--no-keep-sums"});
+    set_group(*command, "What is said", {"--log", "--on-finish", "--quiet", "--json"});
+    for (const auto& [one, other] : {std::pair("--variants", "--variant"), std::pair("--cameras", "--camera"),
+                                     std::pair("--denoise", "--in-process")})
+        command->get_option(one)->excludes(command->get_option(other));
     command->footer(
         "A scene directory holds a render.json or a glTF file. Each image is rendered by a process of its "
         "own;\n"
@@ -161,12 +278,17 @@ void add_batch_command(CLI::App& app, Action& action) {
         "  etendue batch scenes -o out --dry-run\n"
         "  etendue batch shots/a shots/b -o /renders --spp 512 --force --max-memory 16G\n"
         "  etendue batch characters -o turntables --frames 0:47 --animation Walk\n"
-        "  etendue batch products -o catalogue --variants --checkpoint-every 1\n"
+        "  etendue batch products -o catalogue --variants --cameras all --name '{scene}/{variant}-{camera}'\n"
+        "  etendue batch scenes -o out --failed --exclude 'tests/*' --log night.log --on-finish 'mail -s done me'\n"
         "  etendue batch scenes -o out --json --quiet > summary.json");
     command->callback([options, command, own, &action] {
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
         options->command = command_line("etendue batch", given_options(all));
         options->given = given_options(std::span(all).subspan(own));
+        if (options->denoise) {
+            options->overrides.give("--aov", "denoising");
+            options->given.push_back({"--aov", "denoising"});
+        }
         if (!options->output.has_filename()) options->output = options->output.parent_path();
         action = [options] { return run_batch(*options); };
     });

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -41,8 +43,19 @@ OptionHelp describe_option(const CLI::Option& option) {
     for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
     const CLI::Formatter formatter;
+    help.group = option.get_group();
     help.terms = without_spaces(formatter.make_option_opts(&option));
     help.description = option.get_description();
+    // CLI11 names a type before its range or its words, and the default behind them.
+    for (const auto& [from, to] :
+         {std::pair("INT:INT in", "INT in"), std::pair("FLOAT:FLOAT in", "FLOAT in"), std::pair("TEXT:{", "{"),
+          std::pair("TEXT:FILE", "FILE"), std::pair("TEXT:DIR", "DIR")})
+        if (help.terms.starts_with(from)) help.terms.replace(0, std::string_view(from).size(), to);
+    if (const std::string value = option.get_default_str(); !value.empty()) {
+        const std::string shown = "=" + value;
+        if (const std::size_t at = help.terms.find(shown); at != std::string::npos) help.terms.erase(at, shown.size());
+        help.description += fmt::format(" (default: {})", value);
+    }
     help.choices = choices_of(option.get_type_name());
     help.value = value_of(option, help.choices);
     return help;

@@ -18,6 +18,7 @@ struct OptionHelp {
         Text,    ///< often a file
     };
     std::vector<std::string> names;  ///< with their dashes, short ones first; of an argument, its only name
+    std::string group;               ///< heading that it stands under
     std::string terms;               ///< type, range, whether it is required: "FLOAT in [0 - 1] REQUIRED"
     std::string description;
     Value value = Value::None;

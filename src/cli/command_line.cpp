@@ -1,5 +1,7 @@
 #include "cli/command_line.h"
 
+#include "cli/command_help.h"
+#include "cli/help_text.h"
 #include "core/error.h"
 #include "output/software_name.h"
 #include "processor/ray_code.h"
@@ -17,6 +19,13 @@ namespace etendue {
 std::unique_ptr<CLI::App> make_command_line(Action& action) {
     auto app = std::make_unique<CLI::App>("Etendue renders glTF 2.0 scenes to colour-managed EXR images.");
     app->name("etendue");
+    app->formatter_fn([](const CLI::App* shown, const std::string& name, CLI::AppFormatMode) {
+        const CommandHelp help = describe_command(*shown);
+        std::string usage = name + " [OPTIONS]";
+        for (const OptionHelp& argument : help.arguments) usage += " " + argument.names.front();
+        if (!help.commands.empty()) usage += " SUBCOMMAND";
+        return help_text(help, usage, help_width());
+    });
     app->set_version_flag("--version",
                           fmt::format("{} ({})", software_name(), instruction_set_name(ray_code().instruction_set)));
     app->require_subcommand(1);

@@ -19,6 +19,10 @@ std::vector<GivenOption> given_options(std::span<const CLI::Option* const> optio
     return given;
 }
 
+void set_group(CLI::App& command, const std::string& group, std::initializer_list<const char*> options) {
+    for (const char* option : options) command.get_option(option)->group(group);
+}
+
 void hide_options(CLI::App& command, std::span<const OptionOfRender> options) {
     for (const OptionOfRender& option : options) command.get_option(option.name)->group("");
 }

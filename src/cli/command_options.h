@@ -3,7 +3,9 @@
 
 #include "session/given_options.h"
 
+#include <initializer_list>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace CLI {
@@ -15,6 +17,9 @@ namespace etendue {
 
 /// Returns those among `options` that were given, in their order.
 [[nodiscard]] std::vector<GivenOption> given_options(std::span<const CLI::Option* const> options);
+
+/// Puts options of the command under one heading of its help.
+void set_group(CLI::App& command, const std::string& group, std::initializer_list<const char*> options);
 
 /// Names an option that a command has among those that override render.json, and takes no notice of.
 struct OptionOfRender {

@@ -10,6 +10,7 @@
 #include "picture/render_setup.h"
 #include "picture/scene_completion.h"
 #include "processor/ray_code.h"
+#include "session/image_outline.h"
 #include "session/scene_render.h"
 
 #include <algorithm>
@@ -29,12 +30,13 @@ namespace etendue {
 namespace {
 
 struct InspectArguments {
-    std::string scene;
+    std::vector<std::string> paths;
     SettingsOverrides overrides;
     bool json = false;
 };
 
 struct Inspection {
+    std::string path;  ///< scene directory or file
     std::string description;
     nlohmann::json summary;
     Bounds bounds;  ///< from `origin`
@@ -42,6 +44,7 @@ struct Inspection {
     std::size_t triangles = 0;
     std::size_t vertices = 0;
     ProblemList problems;
+    std::optional<ImageOutline> outline;   ///< if the settings can be followed
     std::optional<WorldStatistics> world;  ///< if it could be compiled
 };
 
@@ -83,17 +86,24 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"extensions_ignored", s.extensions_ignored}};
 }
 
-Inspection inspect(const std::string& path, LoadOptions options) {
+Inspection inspect(const std::string& path, const SettingsOverrides& overrides) {
     Inspection result;
+    result.path = path;
+    LoadOptions options = overrides.load_options();
     options.every_animation = true;
     // What a render of the sequence would show first.
-    if (const std::optional<FrameRange> frames = find_frames(path)) options.frame = frames->frame(0);
+    const std::optional<FrameRange> frames = overrides.has("/frames") ? overrides.frames() : find_frames(path);
+    if (frames) options.frame = frames->frame(0);
     LoadedScene loaded = inspect_scene(path, options);
     SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);
-    // Without a scene file there is nothing to describe.
-    if (!scene.file.empty()) result.description = dump(scene);
+    overrides.apply_environment(scene);
+    // Of a file that cannot be read, nothing but the error is worth telling.
+    const bool is_empty = scene.instances.empty() && scene.cameras.empty() && scene.lights.empty();
+    const bool is_described = !scene.file.empty() && !(is_empty && result.problems.has_errors());
+    if (is_described) result.description = dump(scene);
     result.summary = summarize(scene);
+    result.summary["settings"] = nlohmann::json::parse(resolved_settings(scene.settings));
     result.bounds = compute_bounds(scene);
     result.origin = scene.origin;
     for (const MeshDesc& mesh : scene.meshes)
@@ -105,6 +115,7 @@ Inspection inspect(const std::string& path, LoadOptions options) {
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
     try {
         complete_scene(scene, result.problems);
+        result.outline = outline_of(scene);
         RenderSettings settings = scene.settings;
         (void)replace_auto(settings);
         (void)create_integrator(settings);
@@ -133,12 +144,17 @@ std::string to_text(const Inspection& i) {
     std::string text;
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "{}", i.description);
-    if (i.bounds.empty())
-        fmt::format_to(out, "bounds: none (nothing is placed)\n");
-    else
-        fmt::format_to(out, "bounds: {} to {} metres\n", place_text(i.bounds.min, i.origin),
-                       place_text(i.bounds.max, i.origin));
-    fmt::format_to(out, "triangles: {}, vertices: {}\n", i.triangles, i.vertices);
+    if (i.outline)
+        fmt::format_to(out, "image: {}x{} pixels, {} samples per pixel, {}, camera '{}'\n", i.outline->width,
+                       i.outline->height, i.outline->spp, i.outline->integrator, shown_text(i.outline->camera));
+    if (!i.description.empty()) {
+        if (i.bounds.empty())
+            fmt::format_to(out, "bounds: none (nothing is placed)\n");
+        else
+            fmt::format_to(out, "bounds: {} to {} metres\n", place_text(i.bounds.min, i.origin),
+                           place_text(i.bounds.max, i.origin));
+        fmt::format_to(out, "triangles: {}, vertices: {}\n", i.triangles, i.vertices);
+    }
     if (i.world)
         fmt::format_to(
             out,
@@ -162,8 +178,16 @@ nlohmann::json place_json(const Vec3f& point, const Vec3d& origin) {
     return {place.x, place.y, place.z};
 }
 
-void print_json(const Inspection& i) {
+nlohmann::json to_json(const Inspection& i) {
     nlohmann::json json = i.summary;
+    json["path"] = i.path;
+    json["image"] = nullptr;
+    if (i.outline)
+        json["image"] = {{"width", i.outline->width},
+                         {"height", i.outline->height},
+                         {"spp", i.outline->spp},
+                         {"integrator", i.outline->integrator},
+                         {"camera", i.outline->camera}};
     json["triangles"] = i.triangles;
     json["vertices"] = i.vertices;
     json["bounds"] = nullptr;
@@ -183,8 +207,48 @@ void print_json(const Inspection& i) {
         json["problems"].push_back({{"severity", kSeverities[static_cast<int>(problem.severity)]},
                                     {"file", problem.where.file},
                                     {"pointer", problem.where.pointer},
-                                    {"message", problem.message}});
-    print_data(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+                                    {"message", problem.message},
+                                    {"text", problem.str()}});
+    return json;
+}
+
+/// Returns the scenes at the paths: files and scene directories themselves, of other directories all below.
+std::vector<std::string> find_scenes(const std::vector<std::string>& paths) {
+    std::vector<std::string> scenes;
+    for (const std::string& path : paths) {
+        if (!std::filesystem::is_directory(path)) {
+            scenes.push_back(path);
+            continue;
+        }
+        const std::vector<std::filesystem::path> found = find_scene_directories(path);
+        // Why there is none, loading will say.
+        if (found.empty() || std::filesystem::equivalent(found.front(), path))
+            scenes.push_back(path);
+        else
+            for (const std::filesystem::path& scene : found) scenes.push_back(scene.string());
+    }
+    return scenes;
+}
+
+ExitCode run_inspect(const InspectArguments& arguments) {
+    const std::vector<std::string> scenes = find_scenes(arguments.paths);
+    nlohmann::json all = nlohmann::json::array();
+    std::size_t wrong = 0;
+    for (const std::string& scene : scenes) {
+        const Inspection inspection = inspect(scene, arguments.overrides);
+        if (inspection.problems.has_errors()) ++wrong;
+        if (arguments.json)
+            all.push_back(to_json(inspection));
+        else
+            print_text((scenes.size() > 1 ? fmt::format("== {}\n", shown_text(scene)) : "") + to_text(inspection));
+    }
+    if (arguments.json)
+        print_data(
+            (scenes.size() == 1 ? all.front() : all).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+            "\n");
+    else if (scenes.size() > 1)
+        print_text(fmt::format("== {} scenes, {} with errors\n", scenes.size(), wrong));
+    return wrong > 0 ? ExitCode::InvalidScene : ExitCode::Success;
 }
 
 }  // namespace
@@ -192,26 +256,23 @@ void print_json(const Inspection& i) {
 void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
-    add_scene_argument(*command, arguments->scene);
-    add_settings_options(*command, arguments->overrides,
-                         {"/scene_name", "/time_code", "/animation", "/shutter", "/missing_textures"});
-    add_assets_option(*command, arguments->overrides.assets);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    command
+        ->add_option("scenes", arguments->paths,
+                     "Scene directories, .gltf or .glb files, or directories with scenes below them")
+        ->required()
+        ->configurable(false);
+    add_settings_options(*command, arguments->overrides);
+    command->add_flag("--json", arguments->json, "Print JSON; of several scenes, an array");
     command->footer(
-        "Loads and compiles everything and renders nothing. Exit code 3 if there is an error.\n\n"
+        "Loads and compiles everything and renders nothing: a scene without errors here is one that 'render' takes "
+        "with\n"
+        "the same options. Exit code 3 if there is an error.\n\n"
         "Examples:\n"
         "  etendue inspect model.glb\n"
+        "  etendue inspect scenes\n"
+        "  etendue inspect shots/a shots/b --camera main --aov depth\n"
         "  etendue inspect scenes/cornell-box --json");
-    command->callback([arguments, &action] {
-        action = [arguments] {
-            const Inspection inspection = inspect(arguments->scene, arguments->overrides.load_options());
-            if (arguments->json)
-                print_json(inspection);
-            else
-                print_text(to_text(inspection));
-            return inspection.problems.has_errors() ? ExitCode::InvalidScene : ExitCode::Success;
-        };
-    });
+    command->callback([arguments, &action] { action = [arguments] { return run_inspect(*arguments); }; });
 }
 
 }  // namespace etendue

@@ -78,7 +78,14 @@ std::string option_item(const OptionHelp& option) {
 std::string option_items(const char* section, const std::vector<OptionHelp>& options) {
     if (options.empty()) return "";
     std::string text = fmt::format(".SH {}\n", section);
-    for (const OptionHelp& option : options) text += option_item(option);
+    std::vector<std::string> groups;
+    for (const OptionHelp& option : options)
+        if (std::ranges::find(groups, option.group) == groups.end()) groups.push_back(option.group);
+    for (const std::string& group : groups) {
+        if (groups.size() > 1) text += fmt::format(".SS {}\n", escaped(group));
+        for (const OptionHelp& option : options)
+            if (option.group == group) text += option_item(option);
+    }
     return text;
 }
 

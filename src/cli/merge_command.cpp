@@ -66,6 +66,12 @@ ExitCode run_merge(const MergeArguments& arguments) {
     if (!is_partial(output) && output.extension() != ".exr")
         throw UsageError(
             fmt::format("--output '{}' must end in .exr, or in .partial for a larger part", output.string()));
+    for (const std::string& part : arguments.parts)
+        if (std::filesystem::path(part).extension() == ".exr")
+            throw UsageError(
+                fmt::format("'{}' is an image, and an image is no part: parts are .partial files, of "
+                            "'etendue render SCENE --samples A:B -o PART.partial'",
+                            part));
     const OutputPaths paths = OutputPaths::beside(output);
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
     require_writable(output);

@@ -1,6 +1,7 @@
 #include "cli/program.h"
 
 #include "cli/command_line.h"
+#include "cli/command_mistakes.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/source_date.h"
@@ -55,14 +56,14 @@ ExitCode run(const Action& action) {
 
 /// Says what is wrong with a command line, or prints what --help and --version ask for.
 ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
-    std::ostringstream out;
-    std::ostringstream err;
-    const bool is_wrong = app.exit(error, out, err) != 0;
-    print_text(out.str());
-    std::string message = err.str();
-    message.erase(message.find_last_not_of('\n') + 1);
-    if (!message.empty()) log_error("{}", message);
-    return is_wrong ? ExitCode::UsageError : ExitCode::Success;
+    if (error.get_exit_code() == 0) {
+        std::ostringstream out;
+        (void)app.exit(error, out, out);
+        print_text(out.str());
+        return ExitCode::Success;
+    }
+    log_error("error: {}", mistake_in_words(app, error));
+    return ExitCode::UsageError;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -128,6 +129,12 @@ void check_outputs(const RenderArguments& arguments) {
     if (!pyramid.empty() && pyramid.extension() != ".exr")
         throw UsageError(fmt::format("--strategies-image '{}' must end in .exr", pyramid.string()));
     if (partial && !pyramid.empty()) throw UsageError("--strategies-image shows an image, not a part of one");
+    const std::optional<std::uint32_t> spp = arguments.job.overrides.spp();
+    if (arguments.job.samples && spp && arguments.job.samples->end > *spp)
+        throw UsageError(
+            fmt::format("--samples {}:{} goes beyond the {} samples of --spp: a part has samples of the "
+                        "image that --spp asks for, or leave --spp out",
+                        arguments.job.samples->begin, arguments.job.samples->end, *spp));
     if (partial && (arguments.job.overrides.has("/time") || arguments.job.overrides.has("/error")))
         throw UsageError("--time and --error end an image; a part of one has the samples that --samples names");
 }
@@ -158,6 +165,13 @@ void add_continuation_options(CLI::App& command, const std::shared_ptr<RenderArg
         "--resume", arguments->job.resume,
         "Go on with the checkpoint, if there is one, to the same image bit for bit; leave an image or a part that is "
         "up to date");
+    command.add_flag_callback(
+        "--keep-sums", [arguments] { arguments->job.keep_sums_after = 0.0; },
+        "Keep the sums of the finished image, NAME.sums: with --resume, more samples go on from them");
+    command
+        .add_option("--keep-sums-after", arguments->job.keep_sums_after,
+                    "Keep the sums only of a render that takes at least so long, in seconds")
+        ->check(real_range(0.0, 1e9));
     command.add_option_function<std::string>(
         "--samples", [arguments](const std::string& text) { arguments->job.samples = parse_sample_range(text); },
         "Render samples A to B-1 of every pixel, A:B, into a part of the image for 'etendue merge'");
@@ -183,6 +197,7 @@ void add_render_command(CLI::App& app, Action& action) {
                         "Frames of a sequence have their number in place of #### or before the extension. A .partial "
                         "holds a part of an image (a range of --samples, or a --crop) for 'etendue merge'");
     add_settings_options(*command, arguments->job.overrides);
+    add_png_option(*command, arguments->job.overrides);
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
     add_continuation_options(*command, arguments);
@@ -230,7 +245,15 @@ void add_render_command(CLI::App& app, Action& action) {
         "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet\n\n"
         "Layers for --aov:\n" +
         list_aov_sources());
+    set_group(*command, "Going on and parts",
+              {"--checkpoint-every", "--resume", "--keep-sums", "--keep-sums-after", "--samples", "--force"});
+    set_group(*command, "Strategies of bdpt and vcm",
+              {"--strategies-image", "--strategies-depth", "--strategies-unweighted"});
     command->callback([arguments, command, &action] {
+        // A PNG is written beside each image, and who asks for it gets it.
+        std::filesystem::path& output = arguments->output;
+        if (output.extension() == ".png" && !arguments->job.samples && arguments->job.overrides.png)
+            output.replace_extension(".exr");
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
         arguments->job.command = command_line("etendue render", given_options(all));
         action = [arguments] {

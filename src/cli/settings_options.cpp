@@ -5,11 +5,13 @@
 #include "session/usage_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -19,8 +21,46 @@ namespace etendue {
 
 namespace {
 
+constexpr const char* kGroupOfFiles = "Layers and files";
+constexpr const char* kGroupOfScenes = "What the scene shows";
+
 const std::map<std::string, Quality> kQualities{
     {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
+
+/// Holds the headings of settings by the beginnings of their JSON pointers.
+constexpr std::array<std::pair<std::string_view, const char*>, 24> kGroups{{
+    {"/spp", "Samples and when to end"},
+    {"/time_code", "Animation"},
+    {"/time", "Samples and when to end"},
+    {"/error", "Samples and when to end"},
+    {"/adaptive", "Samples and when to end"},
+    {"/min_spp", "Samples and when to end"},
+    {"/seed", "Samples and when to end"},
+    {"/clamp_indirect", "Samples and when to end"},
+    {"/robust", "Samples and when to end"},
+    {"/brightest", "Samples and when to end"},
+    {"/size", "Size and camera"},
+    {"/crop", "Size and camera"},
+    {"/film", "Size and camera"},
+    {"/camera", "Size and camera"},
+    {"/animation", "Animation"},
+    {"/shutter", "Animation"},
+    {"/frames", "Animation"},
+    {"/fps", "Animation"},
+    {"/integrator", "Light transport"},
+    {"/aov", kGroupOfFiles},
+    {"/metadata", kGroupOfFiles},
+    {"/color", "Colour"},
+    {"/texture_memory", kGroupOfScenes},
+    {"/missing_textures", kGroupOfScenes},
+}};
+
+/// Returns the heading under which the help shows a setting.
+const char* group_of(const Setting& setting) {
+    for (const auto& [begin, group] : kGroups)
+        if (setting.pointer.starts_with(begin)) return group;
+    return kGroupOfScenes;
+}
 
 std::string without_backticks(std::string_view text) {
     std::string plain(text);
@@ -84,8 +124,10 @@ void give_or_fail(SettingsOverrides& overrides, std::string_view option, const s
 /// Adds the option for yes, that for no, or both, of which one may be given.
 void add_flags(CLI::App& command, const Setting& setting, const YesNo& type, SettingsOverrides& overrides) {
     const auto add = [&](std::string_view option, const std::string& help) {
-        return command.add_flag_callback(
-            std::string(option), [&overrides, option] { overrides.give(option); }, help);
+        return command
+            .add_flag_callback(
+                std::string(option), [&overrides, option] { overrides.give(option); }, help)
+            ->group(group_of(setting));
     };
     CLI::Option* yes = setting.option.empty() ? nullptr : add(setting.option, description_of(setting));
     CLI::Option* no = type.no_option.empty() ? nullptr : add(type.no_option, without_backticks(type.no_help));
@@ -112,6 +154,7 @@ void add_setting_option(CLI::App& command, const Setting& setting, SettingsOverr
             std::string(setting.option),
             [&](const std::string& text) { give_or_fail(overrides, setting.option, text); }, description_of(setting));
     option->type_name(type_name_of(setting.type));
+    option->group(group_of(setting));
     const auto* const name = std::get_if<Name>(&setting.type);
     if (name != nullptr && name->is_integrator) option->check(CLI::IsMember(integrator_setting_names()).description(""));
 }
@@ -153,8 +196,16 @@ void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& as
             "Directory outside of the scene's from which the environment image that render.json names may come; may be "
             "repeated. $ETENDUE_ASSETS lists more, with ':' between them")
         ->check(CLI::ExistingDirectory)
+        ->group(kGroupOfScenes)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_png_option(CLI::App& command, SettingsOverrides& overrides) {
+    command
+        .add_flag_callback(
+            "--no-png", [&overrides] { overrides.png = false; }, "Write no PNG beside the image")
+        ->group(kGroupOfFiles);
 }
 
 void add_scene_argument(CLI::App& command, std::string& scene) {
@@ -172,22 +223,28 @@ void add_settings_options(CLI::App& command, SettingsOverrides& overrides) {
         .add_option_function<std::string>(
             "--quality", [&overrides](const std::string& text) { overrides.quality = kQualities.at(text); },
             "draft: half the size, 1/16 of the samples; preview: 1/4 of the samples; final: as the scene says")
-        ->check(CLI::IsMember(kQualities));
+        ->check(CLI::IsMember(kQualities))
+        ->group("Size and camera");
     for (const Setting& setting : settings_table()) add_setting_option(command, setting, overrides);
     command
         .add_option("--environment", overrides.environment, "Environment image (EXR or HDR), in place of the scene's")
-        ->check(CLI::ExistingFile);
+        ->check(CLI::ExistingFile)
+        ->group(kGroupOfScenes);
     add_assets_option(command, overrides.assets);
-    command.add_flag_callback(
-        "--deep", [&overrides] { overrides.deep = true; },
-        "Write a deep image beside the image, IMAGE.deep.exr: colour and opacity at up to 16 depths of each pixel "
-        "(docs/deep.md)");
+    command
+        .add_flag_callback(
+            "--deep", [&overrides] { overrides.deep = true; },
+            "Write a deep image beside the image, IMAGE.deep.exr: colour and opacity at up to 16 depths of each pixel "
+            "(docs/deep.md)")
+        ->group(kGroupOfFiles);
     auto* half = command.add_flag_callback(
         "--half", [&overrides] { overrides.depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
+    half->group(kGroupOfFiles);
     command
         .add_flag_callback(
             "--float", [&overrides] { overrides.depth = PixelDepth::Float; }, "Write 32-bit floats")
-        ->excludes(half);
+        ->excludes(half)
+        ->group(kGroupOfFiles);
 }
 
 }  // namespace etendue

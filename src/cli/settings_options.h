@@ -25,6 +25,9 @@ void add_settings_options(CLI::App& command, SettingsOverrides& overrides);
 void add_settings_options(CLI::App& command, SettingsOverrides& overrides,
                           std::initializer_list<std::string_view> pointers);
 
+/// Adds --no-png.
+void add_png_option(CLI::App& command, SettingsOverrides& overrides);
+
 /// Adds the argument of the scene, which must be given, and stores it in `scene`.
 void add_scene_argument(CLI::App& command, std::string& scene);
 

@@ -262,6 +262,9 @@ void check(const ViewArguments& arguments) {
     if (arguments.json && !arguments.list) throw UsageError("--json prints what --list lists");
     if (arguments.list) return;
     if (arguments.file.empty()) throw UsageError("there is no file to view; --list alone lists displays and views");
+    if (arguments.output.empty())
+        throw UsageError(fmt::format("--output is missing: the PNG to write, such as -o {}",
+                                     std::filesystem::path(arguments.file).stem().string() + ".view.png"));
     if (arguments.output.extension() != ".png")
         throw UsageError(fmt::format("--output '{}' must end in .png", arguments.output.string()));
 }

@@ -10,6 +10,10 @@ namespace etendue {
 std::optional<std::uint64_t> parse_byte_size(std::string_view text) {
     constexpr std::string_view kUnits = "KMGT";
     constexpr std::size_t kMaxDigits = 6;
+    if (text.ends_with("iB"))
+        text.remove_suffix(2);
+    else if (text.ends_with('B'))
+        text.remove_suffix(1);
     if (text.size() < 2 || text.size() > kMaxDigits + 1) return std::nullopt;
     const std::size_t unit = kUnits.find(text.back());
     std::uint64_t number = 0;

@@ -36,7 +36,7 @@ bool is_done_already(const ImageJob& job, const SettingsOverrides& overrides) {
     const OutputPaths paths = OutputPaths::beside(job.output);
     if (why_unfinished(paths) || why_outdated(paths, job.scene)) return false;
     const PreparedScene prepared = prepare_job(job, overrides);
-    return !why_outdated(paths, prepared.scene, settings_hash(prepared.scene, overrides.depth));
+    return !why_outdated(paths, prepared.scene, overrides.depth);
 }
 
 WantedImage wanted_image(const ImageJob& job, const SettingsOverrides& overrides, const std::string& texture_memory) {

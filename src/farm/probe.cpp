@@ -7,6 +7,7 @@
 #include "processor/ray_code.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
+#include "session/image_outline.h"
 #include "session/interrupt.h"
 #include "session/phase_timer.h"
 #include "session/prepared_scene.h"
@@ -53,6 +54,7 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     PreparedScene prepared = prepare_scene(job.scene, given);
     const PhaseTimer build_timer;
     const ColorConfig colors = ColorConfig::from_environment();
+    const ImageOutline outline = outline_of(prepared.scene);
     const std::vector<std::string> to_choose = replace_auto(prepared.scene.settings);
     RenderSettings settings = prepared.scene.settings;
     const std::string working_space = resolve_colors(settings, colors);
@@ -70,10 +72,11 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     const double all = rendered.seconds_per_spp * static_cast<double>(options.spp);
     const double start = prepared.load.wall + build.wall;
     const nlohmann::ordered_json json{{"scene", job.scene.string()},
-                                      {"width", options.window.width()},
-                                      {"height", options.window.height()},
-                                      {"spp", options.spp},
+                                      {"width", outline.width},
+                                      {"height", outline.height},
+                                      {"spp", outline.spp},
                                       {"integrator", settings.integrator.type},
+                                      {"camera", outline.camera},
                                       {"threads", threads.thread_count()},
                                       {"load_seconds", prepared.load.wall},
                                       {"build_seconds", build.wall},

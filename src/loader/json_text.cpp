@@ -2,6 +2,8 @@
 
 #include "core/shown_text.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <unordered_set>
 #include <vector>
 
@@ -21,11 +23,30 @@ std::string reason(const Json::exception& error) {
     return "not valid JSON: " + std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
 }
 
+/// Says what many write who are used to JavaScript; empty if that is not what stands before byte `end` of the text.
+std::string habit(std::string_view text, std::size_t end) {
+    end = std::min(end, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    const std::string_view before = text.substr(0, end);
+    for (const std::string_view mark : {"//", "/*"})
+        if (before.ends_with(mark) || (end > 0 && text.substr(end - 1).starts_with(mark)))
+            return fmt::format("not valid JSON: in line {} is a comment ('{}'), which JSON does not have: take it out",
+                               line, mark);
+    if (!before.ends_with('}') && !before.ends_with(']')) return {};
+    const std::size_t last = before.find_last_not_of(" \t\r\n", before.size() - 2);
+    if (last == std::string_view::npos || before[last] != ',') return {};
+    return fmt::format("not valid JSON: in line {}, a comma stands before '{}': take it out",
+                       1 + std::count(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(last), '\n'),
+                       before.back());
+}
+
 /// Reads through a text without keeping it, and stops at the first thing that is not accepted. nlohmann's parser keeps
 /// its own stack, so that depth costs heap, not the call stack; but whoever walks the document afterwards may recurse.
 /// (Its callback while parsing would do as well, but takes quadratic time in the length of arrays.)
 class StrictReader : public nlohmann::json_sax<Json> {
   public:
+    explicit StrictReader(std::string_view text) : text_(text) {}
+
     std::string failure;  ///< empty if all is well
 
     bool null() override { return true; }
@@ -47,8 +68,9 @@ class StrictReader : public nlohmann::json_sax<Json> {
         return false;
     }
 
-    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override {
-        failure = reason(error);
+    bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
+        failure = habit(text_, position);
+        if (failure.empty()) failure = reason(error);
         return false;
     }
 
@@ -65,13 +87,14 @@ class StrictReader : public nlohmann::json_sax<Json> {
         return true;
     }
 
+    std::string_view text_;
     std::vector<std::unordered_set<std::string>> keys_;  ///< of every open object; empty for arrays
 };
 
 }  // namespace
 
 Json parse_json(std::string_view text, const SourceLocation& where) {
-    StrictReader reader;
+    StrictReader reader(text);
     Json::sax_parse(text.begin(), text.end(), &reader);
     if (!reader.failure.empty()) throw SceneError(where, reader.failure);
     try {

@@ -57,7 +57,15 @@ fs::path choose_scene_file(const fs::path& directory, const std::string& wanted,
         }
     }
     const std::vector<fs::path> files = scene_files(directory);
-    if (files.empty()) throw SceneError({directory.string(), {}}, "there is no glTF file in this directory");
+    if (files.empty()) {
+        std::vector<fs::path> below = find_scene_directories(directory);
+        std::erase(below, directory);
+        if (below.empty()) throw SceneError({directory.string(), {}}, "there is no glTF file in this directory");
+        throw SceneError({directory.string(), {}},
+                         fmt::format("there is no glTF file in this directory, but scenes are below it, such as '{}': "
+                                     "give one of them, or all to 'etendue batch'",
+                                     below.front().string()));
+    }
     fs::path chosen = files.front();
     if (files.size() > 1) {
         std::vector<fs::path> preferred;

@@ -27,9 +27,9 @@ std::optional<FileId> file_id(const std::filesystem::path& path) {
 
 }  // namespace
 
-OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
-    OutputPaths paths{exr, exr, exr};
-    paths.png.replace_extension(".png");
+OutputPaths OutputPaths::beside(const std::filesystem::path& exr, bool has_png) {
+    OutputPaths paths{exr, {}, exr};
+    if (has_png) paths.png = std::filesystem::path(exr).replace_extension(".png");
     paths.json.replace_extension(".json");
     return paths;
 }

@@ -10,10 +10,10 @@ namespace etendue {
 
 struct OutputPaths {
     std::filesystem::path exr;
-    std::filesystem::path png;
+    std::filesystem::path png;  ///< empty if there is none
     std::filesystem::path json;
 
-    [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr);
+    [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr, bool has_png = true);
 };
 
 /// Where the layer `name` of the image `exr` is written to if it has a file of its own; that of depths is "deep".

@@ -2,7 +2,6 @@
 #include "report/page_parts.h"
 #include "report/page_templates.h"
 
-#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -31,10 +30,6 @@ std::string relative_url(std::string_view path) {
     return url;
 }
 
-std::string preview_url(const BatchUnit& unit) {
-    return relative_url(std::filesystem::path(unit.image).replace_extension(".png").string());
-}
-
 std::string data_url(const std::vector<unsigned char>& file) {
     const char* type = file.front() == 0xff ? "image/jpeg" : "image/png";
     return fmt::format("data:{};base64,{}", type, to_base64(file));
@@ -49,7 +44,7 @@ std::string make_batch_page(const BatchReport& report, const Thumbnails& thumbna
     for (std::size_t i = 0; i < report.units.size(); ++i) {
         const BatchUnit& unit = report.units[i];
         nlohmann::json picture = nlohmann::json::object();
-        if (has_image(unit.outcome)) picture["link"] = preview_url(unit);
+        if (has_image(unit.outcome) && !unit.preview.empty()) picture["link"] = relative_url(unit.preview);
         if (!thumbnails.files[i].empty()) picture["thumbnail"] = data_url(thumbnails.files[i]);
         pictures.push_back(std::move(picture));
     }

@@ -16,6 +16,8 @@ std::size_t& count_of(BatchTotals& totals, UnitOutcome outcome) {
             return totals.failed;
         case UnitOutcome::Interrupted:
             return totals.interrupted;
+        case UnitOutcome::Running:
+            return totals.running;
         case UnitOutcome::RunningElsewhere:
             return totals.running_elsewhere;
         case UnitOutcome::NotStarted:
@@ -53,12 +55,26 @@ const char* outcome_name(UnitOutcome outcome) {
             return "failed";
         case UnitOutcome::Interrupted:
             return "interrupted";
+        case UnitOutcome::Running:
+            return "running";
         case UnitOutcome::RunningElsewhere:
             return "running elsewhere";
         case UnitOutcome::NotStarted:
             break;
     }
     return "not started";
+}
+
+const char* state_name(BatchState state) {
+    switch (state) {
+        case BatchState::Planning:
+            return "planning";
+        case BatchState::Running:
+            return "running";
+        case BatchState::Ended:
+            break;
+    }
+    return "ended";
 }
 
 bool has_image(UnitOutcome outcome) {

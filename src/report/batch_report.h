@@ -17,6 +17,7 @@ enum class UnitOutcome {
     UpToDate,
     Failed,
     Interrupted,       ///< by the user, with what was rendered so far
+    Running,           ///< this batch process renders it
     RunningElsewhere,  ///< another batch process has it
     NotStarted,        ///< the batch ended before its turn
 };
@@ -38,7 +39,9 @@ struct BatchUnit {
     std::string scene{};
     std::optional<int> frame{};
     std::string variant{};  ///< variant of the scene's materials; empty if none was asked for
-    std::string image{};    ///< the EXR, relative to the output directory; NAME.png beside it is looked at
+    std::string camera{};   ///< camera, as far as it is known
+    std::string image{};    ///< the EXR, relative to the output directory
+    std::string preview{};  ///< the PNG that is looked at, relative to the output directory; empty if there is none
     UnitOutcome outcome = UnitOutcome::NotStarted;
     std::string reason{};            ///< why it was stale: "settings changed"; empty if it was not
     std::string error{};             ///< one message of any number of lines, if it failed
@@ -49,14 +52,24 @@ struct BatchUnit {
 
     int width = 0;  ///< pixels rendered; 0 if not known
     int height = 0;
-    int spp = 0;  ///< finished
+    int spp = 0;            ///< finished
+    int spp_requested = 0;  ///< asked for; 0 if not known
     std::string integrator{};
     std::string halt_reason{};
     std::optional<UnitSeconds> seconds{};
     std::optional<double> estimated_seconds{};  ///< seconds that the plan expected
+    std::optional<double> fraction{};           ///< part of the samples that are taken while it is running, [0, 1]
+    std::optional<double> seconds_left{};       ///< seconds until it is done, while it is running
     std::optional<double> rays_per_second{};
     std::optional<std::uint64_t> rays{};
     std::optional<std::uint64_t> peak_memory_bytes{};
+};
+
+/// Says what a batch does when its report is written.
+enum class BatchState {
+    Planning,  ///< looks at what there is to do
+    Running,
+    Ended
 };
 
 struct BatchReport {
@@ -67,6 +80,9 @@ struct BatchReport {
     std::string started{};  ///< ISO 8601, UTC
     std::string ended{};    ///< ISO 8601, UTC; empty while the batch goes on
     double seconds = 0.0;   ///< from start to end, or until now
+    BatchState state = BatchState::Planning;
+    std::string written{};                 ///< ISO 8601, UTC: when this was known
+    std::optional<double> seconds_left{};  ///< seconds until all is done, if that is known
     std::string host{};
     int threads = 0;
     bool interrupted = false;
@@ -80,6 +96,7 @@ struct BatchTotals {
     std::size_t up_to_date = 0;
     std::size_t failed = 0;
     std::size_t interrupted = 0;
+    std::size_t running = 0;
     std::size_t running_elsewhere = 0;
     std::size_t not_started = 0;
     UnitSeconds seconds{};
@@ -91,6 +108,9 @@ struct BatchTotals {
 
 /// Returns the name of an outcome in JSON and on the page: "up to date".
 [[nodiscard]] const char* outcome_name(UnitOutcome outcome);
+
+/// Returns the name of a state in JSON: "planning".
+[[nodiscard]] const char* state_name(BatchState state);
 
 /// Whether the unit's image shows what was asked for, finished or not: another may lie there from before.
 [[nodiscard]] bool has_image(UnitOutcome outcome);

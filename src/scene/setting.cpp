@@ -1,6 +1,7 @@
 #include "scene/setting.h"
 
 #include "core/overloaded.h"
+#include "scene/old_setting_names.h"
 
 #include <algorithm>
 #include <array>
@@ -128,6 +129,8 @@ std::string NumberRange::str() const {
 }
 
 const Setting* find_setting(std::string_view pointer) {
+    for (const OldSettingName& old : kOldSettingNames)
+        if (pointer == old.pointer) pointer = old.now;
     const auto found = std::ranges::find(settings_table(), pointer, &Setting::pointer);
     return found == settings_table().end() ? nullptr : &*found;
 }

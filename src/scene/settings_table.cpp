@@ -187,6 +187,13 @@ SettingValue byte_size_text(const std::optional<std::uint64_t>& bytes) {
     return bytes ? SettingValue(to_byte_size(*bytes)) : SettingValue();
 }
 
+/// Reads a size of memory that textures can do with: a mebibyte at least.
+std::optional<std::uint64_t> parse_texture_memory(std::string_view text) {
+    if (text.find('K') != std::string_view::npos) return std::nullopt;
+    const std::optional<std::uint64_t> bytes = parse_byte_size(text);
+    return bytes && *bytes > 0 ? bytes : std::nullopt;
+}
+
 template <auto parse>
 bool parses(std::string_view text) {
     return parse(text).has_value();
@@ -256,7 +263,7 @@ constexpr std::array kRows{
             .decides = Decides::Amount,
             .help = "Samples per pixel",
             .place = at([](auto& s) -> auto& { return s.spp; })},
-    Setting{.pointer = "/resolution",
+    Setting{.pointer = "/size",
             .option = "--size",
             .type = WholeNumbers{{1, kMostSide}, 2, 2, 'x', "WIDTHxHEIGHT"},
             .decides = Decides::Samples,
@@ -538,15 +545,17 @@ constexpr std::array kRows{
             .decides = Decides::Samples,
             .help = "Width of a pixel over its height",
             .place = at([](auto& s) -> auto& { return s.film.pixel_aspect; })},
-    Setting{.pointer = "/texture_memory",
-            .option = "--texture-memory",
-            .type = Form{kByteSizeForm, "^[0-9]{1,6}[KMGT]$", parses<parse_byte_size>},
-            .decides = Decides::Schedule,
-            .default_text = "half of the machine's",
-            .help = "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as "
-                    "they are needed",
-            .page = "gltf.md#textures",
-            .place = parsed_at<parse_byte_size, byte_size_text>([](auto& s) -> auto& { return s.texture_memory; })},
+    Setting{
+        .pointer = "/texture_memory",
+        .option = "--texture-memory",
+        .type = Form{"a number of up to six digits with M, G or T behind it, such as 8G, and at least 1M",
+                     "^(?!0+[MGT])[0-9]{1,6}[MGT](i?B)?$", parses<parse_texture_memory>},
+        .decides = Decides::Schedule,
+        .default_text = "half of the machine's",
+        .help = "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as "
+                "they are needed",
+        .page = "gltf.md#textures",
+        .place = parsed_at<parse_texture_memory, byte_size_text>([](auto& s) -> auto& { return s.texture_memory; })},
     Setting{.pointer = "/missing_textures",
             .option = "--missing-textures",
             .type = kChoiceOf<kMissingTexturesNames>,

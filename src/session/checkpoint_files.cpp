@@ -6,6 +6,7 @@
 #include "core/write_file.h"
 #include "picture/output_paths.h"
 
+#include <cstdint>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -179,6 +180,27 @@ std::optional<Checkpoint> read_part(const std::filesystem::path& file, const Che
     require_expected(*kept, expected, file, "part", "write to another file, or replace it with --force");
     simplify(kept->state, expected);
     return kept;
+}
+
+std::filesystem::path sums_path(const std::filesystem::path& output) {
+    return std::filesystem::path(output).replace_extension(".sums");
+}
+
+std::optional<Checkpoint> read_sums(const std::filesystem::path& file, const CheckpointFiles::Expected& expected,
+                                    int most_spp, bool quiet) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return std::nullopt;
+    try {
+        Checkpoint kept = read_checkpoint(file);
+        if (!is_of(kept, expected) || static_cast<std::int64_t>(kept.state.spp_done) > most_spp) return std::nullopt;
+        simplify(kept.state, expected);
+        return kept;
+    } catch (const DamagedCheckpoint& broken) {
+        if (!quiet) log_warning("warning: {}; the image begins anew", broken.what());
+    } catch (const IoError& failure) {
+        if (!quiet) log_warning("warning: {}; the image begins anew", failure.what());
+    }
+    return std::nullopt;
 }
 
 }  // namespace etendue

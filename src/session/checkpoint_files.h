@@ -66,6 +66,14 @@ class CheckpointFiles {
 /// True if a render can go on with `kept`.
 [[nodiscard]] bool is_of(const Checkpoint& kept, const CheckpointFiles::Expected& expected);
 
+/// Returns the file that keeps the sums of the finished image `output`, so that more samples can go on from them.
+[[nodiscard]] std::filesystem::path sums_path(const std::filesystem::path& output);
+
+/// Reads the sums in `file`; none if there are none, or if they are of another render than what is expected or have
+/// more than `most_spp` samples. Warns of those that are damaged or cannot be read, unless `quiet`.
+[[nodiscard]] std::optional<Checkpoint> read_sums(const std::filesystem::path& file,
+                                                  const CheckpointFiles::Expected& expected, int most_spp, bool quiet);
+
 /// The part in `file`; none if there is none, or, with a warning unless `quiet`, if it is damaged. Throws
 /// RefusedCheckpoint with every difference if it is of another render than what is expected: it took somebody's time.
 [[nodiscard]] std::optional<Checkpoint> read_part(const std::filesystem::path& file,

@@ -25,6 +25,7 @@ std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& o
     std::vector<std::filesystem::path> files{output, preview_path(output)};
     for (const std::filesystem::path& checkpoint : CheckpointFiles(output).paths()) files.push_back(checkpoint);
     if (is_partial(output)) return files;
+    files.push_back(sums_path(output));
     const OutputPaths paths = OutputPaths::beside(output);
     files.insert(files.end(), {paths.png, paths.json});
     for (const std::string& layer : layers) files.push_back(layer_path(output, layer));
@@ -39,7 +40,7 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
     if (std::filesystem::is_regular_file(std::filesystem::symlink_status(paths.json, ignored)))
         std::filesystem::remove(paths.json, ignored);
     write_exr_files(paths.exr, image, colors, depth);
-    PreviewDriver(paths.png, colors).write(image.frame);
+    if (!paths.png.empty()) PreviewDriver(paths.png, colors).write(image.frame);
     if (beside) beside();
     image.statistics.layer_files = layer_file_names(paths.exr, image);
     image.statistics.write = timer.elapsed();

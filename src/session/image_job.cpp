@@ -59,6 +59,7 @@ std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::
 SettingsOverrides overrides_of(const ImageJob& job, SettingsOverrides overrides) {
     overrides.frame = job.frame;
     if (job.variant) overrides.give("--variant", *job.variant);
+    if (job.camera) overrides.give("--camera", *job.camera);
     return overrides;
 }
 
@@ -71,6 +72,7 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
                                .samples = options.samples,
                                .checkpoint_minutes = options.checkpoint_minutes,
                                .resume = options.resume,
+                               .keep_sums_after = options.keep_sums_after,
                                .force = options.force,
                                .progress_descriptor = options.progress_descriptor,
                                .quiet = options.quiet,
@@ -78,9 +80,9 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
                                .command = options.command,
                                .is_lost = options.is_lost};
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
-    const std::string hash = settings_hash(prepared.scene, request.overrides.depth);
+    const OutputPaths paths = OutputPaths::beside(job.output, request.overrides.png);
     if (!options.force && !is_partial(job.output) &&
-        is_up_to_date(OutputPaths::beside(job.output), job.scene, prepared.scene, hash)) {
+        is_up_to_date(paths, job.scene, prepared.scene, request.overrides.depth)) {
         // Of a render that was stopped after its image was complete.
         CheckpointFiles(job.output).remove();
         return result;

@@ -22,6 +22,8 @@ struct ImageJob {
     std::optional<int> frame;      ///< of a sequence
     /// Names the variant of the scene's materials; none for the variant that overrides or render.json ask for.
     std::optional<std::string> variant{};
+    /// Names the camera; none for the camera that overrides or render.json ask for.
+    std::optional<std::string> camera{};
 };
 
 enum class ImageOutcome { Rendered, UpToDate, Failed, Interrupted };
@@ -43,7 +45,7 @@ struct ImageResult {
 [[nodiscard]] std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::filesystem::path& output,
                                                const std::string& name, const SettingsOverrides& overrides);
 
-/// `overrides` with the frame and variant of the job.
+/// Returns `overrides` with the frame, variant and camera of the job.
 [[nodiscard]] SettingsOverrides overrides_of(const ImageJob& job, SettingsOverrides overrides);
 
 struct ImageJobOptions {
@@ -53,6 +55,7 @@ struct ImageJobOptions {
     bool make_directories = false;               ///< for the output
     double checkpoint_minutes = 0.0;             ///< as in SceneRenderRequest
     bool resume = false;                         ///< the same
+    std::optional<double> keep_sums_after{};     ///< the same
     int progress_descriptor = -1;                ///< the same
     StrategiesRequest strategies{};              ///< the same
     std::optional<SampleRange> samples{};        ///< the same

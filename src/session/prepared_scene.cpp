@@ -28,14 +28,18 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     return prepared;
 }
 
-std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
+std::string settings_hash(const SceneDesc& scene, const RenderSettings& settings, PixelDepth depth) {
     // FNV-1a, 64 bits, over exact texts; nobody attacks it, it only has to tell settings apart.
     const std::string text = fmt::format("{}\n{}\n{}\n{}\n{}", software_name(), dump_without_settings(scene),
-                                         to_json_object(canonical_settings(scene.settings, decides_files)),
+                                         to_json_object(canonical_settings(settings, decides_files)),
                                          static_cast<int>(depth), ColorConfig::environment_path().string());
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return fmt::format("{:016x}", hash);
+}
+
+std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
+    return settings_hash(scene, scene.settings, depth);
 }
 
 std::string requested_settings(const RenderSettings& settings) {

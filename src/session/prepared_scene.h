@@ -26,6 +26,8 @@ struct PreparedScene {
 /// Hashes every setting that the files of an image depend on, all bits of it, and the program's version: equal for
 /// equal files as long as the input files are the same.
 [[nodiscard]] std::string settings_hash(const SceneDesc& scene, PixelDepth depth);
+/// Hashes the scene with other `settings` than its own.
+[[nodiscard]] std::string settings_hash(const SceneDesc& scene, const RenderSettings& settings, PixelDepth depth);
 
 /// Returns the settings that the hash is made of, but for defaults, as a JSON object by their JSON pointers.
 [[nodiscard]] std::string requested_settings(const RenderSettings& settings);

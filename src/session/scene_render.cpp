@@ -41,7 +41,8 @@ namespace etendue {
 namespace {
 
 void require_all_writable(const OutputPaths& paths) {
-    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json}) require_writable(path);
+    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
+        if (!path.empty()) require_writable(path);
 }
 
 /// After rendering, when the cache has held what it will. Look-ups that failed are an error to tell, not one to lose
@@ -67,7 +68,7 @@ class SceneRender {
           problems_(std::move(prepared.problems)),
           scene_(std::move(prepared.scene)),
           output_(request.output.empty() ? std::filesystem::path(scene_.name + ".exr") : request.output),
-          paths_(OutputPaths::beside(output_)),
+          paths_(OutputPaths::beside(output_, request.overrides.png)),
           checkpoints_(output_),
           progress_pipe_(request.progress_descriptor) {
         progress_pipe_.enter("load");
@@ -114,6 +115,7 @@ class SceneRender {
         if (!interrupted || rendered.counters.samples > 0) write(world, rendered, !interrupted);
         if (request_.overrides.has("/brightest") && !request_.quiet) list_brightest(description_.statistics);
         if (!interrupted) checkpoints_.remove();
+        if (!interrupted && !is_partial(output_)) keep_sums(rendered);
         return {std::move(description_.statistics), output_, interrupted, false};
     }
 
@@ -243,6 +245,7 @@ class SceneRender {
         std::optional<Checkpoint> kept;
         if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
         if (!kept) kept = checkpoints_.read(expected, request_.quiet);
+        if (!kept && !is_partial(output_)) kept = read_sums(sums_path(output_), expected, options_.spp, request_.quiet);
         return kept;
     }
 
@@ -331,6 +334,20 @@ class SceneRender {
             log_error("error: no checkpoint was written: {}", error.what());
             return false;
         }
+    }
+
+    /// Keeps the sums of the finished image if that is asked for; those of an earlier image are of no more use.
+    void keep_sums(const RenderResult& rendered) const {
+        const std::filesystem::path path = sums_path(output_);
+        const bool is_kept =
+            request_.keep_sums_after && description_.statistics.render.wall >= *request_.keep_sums_after;
+        try {
+            if (is_kept) return etendue::write_checkpoint(path, identity_, to_text(description_), rendered);
+        } catch (const IoError& error) {
+            log_error("error: the sums were not kept: {}", error.what());
+        }
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);
     }
 
     void write_preview(const RenderState& state) {

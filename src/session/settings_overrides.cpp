@@ -24,7 +24,7 @@ void apply_quality(Quality quality, RenderSettings& settings) {
     const FilmSettings before = film;
     film.width = std::max(1, film.width / 2);
     film.height = std::max(1, film.height / 2);
-    settings.options["/resolution"] = "--quality";
+    settings.options["/size"] = "--quality";
     if (film.overscan >= 1.0f) film.overscan = std::ceil(0.5f * film.overscan);
     if (film.crop) {
         auto& c = *film.crop;

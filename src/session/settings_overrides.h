@@ -37,6 +37,7 @@ struct SettingsOverrides {
     std::vector<std::filesystem::path> assets;  ///< as in LoadOptions
     std::optional<int> frame;                   ///< of the sequence, that is shown
     PixelDepth depth = PixelDepth::Half;
+    bool png = true;  ///< a preview is written beside the image
 
     /// Takes `option` of the table of settings as it stands on a command line, with `text` behind it unless it is a
     /// flag. Throws UsageError that names the option if the text is not what the setting takes.

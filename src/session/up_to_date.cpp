@@ -1,14 +1,20 @@
 #include "session/up_to_date.h"
 
 #include "output/input_file_json.h"
+#include "render/render.h"
 #include "scene/canonical_settings.h"
 #include "session/input_files.h"
+#include "session/prepared_scene.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <fstream>
 #include <set>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -80,13 +86,67 @@ std::string changes(const nlohmann::json& statistics, const RenderSettings& sett
     return "";
 }
 
+/// Holds the settings that say only when a render ends, and which of its pixels get more samples than others until
+/// then.
+constexpr std::array<std::string_view, 5> kEnds{"/spp", "/time", "/error", "/adaptive", "/min_spp"};
+
+/// Returns `settings` with those of kEnds that the image of these statistics was asked for; none if they do not tell.
+std::optional<RenderSettings> with_ends_of(const nlohmann::json& statistics, RenderSettings settings) {
+    const auto requested = value_of<nlohmann::json>(statistics, "requested_settings", &nlohmann::json::is_object);
+    if (!requested) return std::nullopt;
+    for (const std::string_view pointer : kEnds) {
+        const Setting& setting = *find_setting(pointer);
+        SettingValue value = default_value(setting);
+        if (const auto found = requested->find(pointer); found != requested->end()) {
+            if (found->is_boolean())
+                value = found->get<bool>();
+            else if (found->is_number_integer() && std::holds_alternative<std::int64_t>(value))
+                value = found->get<std::int64_t>();
+            else if (found->is_number())
+                value = found->get<double>();
+            else
+                return std::nullopt;
+        }
+        if (problem_with(setting, value)) return std::nullopt;
+        setting.place.write(settings, value);
+    }
+    return settings;
+}
+
+std::optional<double> number_at(const nlohmann::json& json, const char* pointer) {
+    const nlohmann::json::json_pointer place(pointer);
+    if (!json.contains(place) || !json[place].is_number()) return std::nullopt;
+    return json[place].get<double>();
+}
+
+/// True if the complete image of these statistics, which was made with the settings `made`, is what a render of `asked`
+/// would end with, or better; only when they end is different.
+bool has_reached(const nlohmann::json& statistics, const RenderSettings& made, const RenderSettings& asked) {
+    const auto is_adaptive = [](const RenderSettings& s) { return s.relative_error > 0.0 && s.adaptive; };
+    const double done = number_at(statistics, "/spp/done").value_or(0.0);
+    const double least = number_at(statistics, "/adaptive/least").value_or(done);
+    // Every pixel has all samples, and no limit asks for more.
+    if (done == asked.spp && least == done) return true;
+    if (done > asked.spp || is_adaptive(made) != is_adaptive(asked)) return false;
+    if (is_adaptive(made) && made.min_spp != asked.min_spp) return false;
+    // A render ends before the pass that would exceed its time, which then is not quite over.
+    const bool took_its_time = value_of<std::string>(statistics, "halt_reason", &nlohmann::json::is_string) ==
+                               halt_reason_name(HaltReason::TimeLimit);
+    const double seconds =
+        std::max(took_its_time ? made.time_limit : 0.0, number_at(statistics, "/seconds/render/wall").value_or(0.0));
+    if (asked.time_limit > 0.0 && seconds >= asked.time_limit) return true;
+    const std::optional<double> error = number_at(statistics, "/estimated_relative_error");
+    return asked.relative_error > 0.0 && error && *error <= asked.relative_error;
+}
+
 }  // namespace
 
 std::optional<Staleness> why_unfinished(const OutputPaths& output) {
     std::error_code error;
     std::string missing;
     std::size_t count = 0;
-    const std::array<fs::path, 3> files{output.exr, output.png, output.json};
+    std::vector<fs::path> files{output.exr, output.json};
+    if (!output.png.empty()) files.push_back(output.png);
     for (const fs::path& path : files) {
         if (fs::exists(path, error)) continue;
         missing = path.filename().string();
@@ -116,20 +176,25 @@ std::optional<Staleness> why_outdated(const OutputPaths& output, const fs::path&
     return std::nullopt;
 }
 
-std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc& scene, const std::string& hash) {
+std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc& scene, PixelDepth depth) {
     const nlohmann::json statistics = read_statistics(output.json);
     std::set<std::string> known;
     for (const InputFile& file : inputs_of(statistics).value_or(std::vector<InputFile>())) known.insert(file.path);
     for (const fs::path& input : scene.inputs)
         if (!known.contains(input_name(input, scene.directory)))
             return Staleness{.reason = fmt::format("input {} is new", input.filename().string())};
-    if (value_of<std::string>(statistics, "settings_hash", &nlohmann::json::is_string) != hash)
-        return Staleness{.reason = fmt::format("settings changed{}", changes(statistics, scene.settings))};
-    return std::nullopt;
+    const auto hash = value_of<std::string>(statistics, "settings_hash", &nlohmann::json::is_string);
+    if (hash == settings_hash(scene, depth)) return std::nullopt;
+    Staleness stale{.reason = fmt::format("settings changed{}", changes(statistics, scene.settings))};
+    const std::optional<RenderSettings> made = with_ends_of(statistics, scene.settings);
+    if (!made || hash != settings_hash(scene, *made, depth)) return stale;
+    if (has_reached(statistics, *made, scene.settings)) return std::nullopt;
+    stale.done = std::min(1.0, number_at(statistics, "/spp/done").value_or(0.0) / scene.settings.spp);
+    return stale;
 }
 
-bool is_up_to_date(const OutputPaths& output, const fs::path& path, const SceneDesc& scene, const std::string& hash) {
-    return !why_unfinished(output) && !why_outdated(output, path) && !why_outdated(output, scene, hash);
+bool is_up_to_date(const OutputPaths& output, const fs::path& path, const SceneDesc& scene, PixelDepth depth) {
+    return !why_unfinished(output) && !why_outdated(output, path) && !why_outdated(output, scene, depth);
 }
 
 }  // namespace etendue

@@ -1,6 +1,7 @@
 // Whether an image must be rendered again, and why.
 #pragma once
 
+#include "output/exr_driver.h"
 #include "picture/output_paths.h"
 #include "scene/scene_desc.h"
 
@@ -15,7 +16,8 @@ namespace etendue {
 struct Staleness {
     std::string reason;          ///< "never rendered"
     bool is_unfinished = false;  ///< there is no whole image, of whatever settings
-    double done = 0.0;           ///< part of its samples that an interrupted render has taken, [0, 1]
+    /// Part of the samples that an interrupted render has taken, or an image of which only more are asked for, [0, 1].
+    double done = 0.0;
 };
 
 /// Returns why the files of `output` are no completed image: one is missing, or they are of a render that was cut
@@ -32,12 +34,13 @@ struct Staleness {
 [[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output, const std::filesystem::path& scene);
 
 /// Returns why the completed render `output`, whose inputs are as they were, is outdated by the `scene` that is loaded
-/// from them now: the scene is read from more files, or its settings have another hash than `hash`; none if neither.
+/// from them now: the scene is read from more files, or its settings or `depth` have changed; none if neither. How many
+/// samples are asked for and when the render is to end is compared with what the image has reached.
 [[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc& scene,
-                                                    const std::string& hash);
+                                                    PixelDepth depth);
 
 /// True if there is no reason of any kind; `path` is where `scene` was loaded from.
 [[nodiscard]] bool is_up_to_date(const OutputPaths& output, const std::filesystem::path& path, const SceneDesc& scene,
-                                 const std::string& hash);
+                                 PixelDepth depth);
 
 }  // namespace etendue

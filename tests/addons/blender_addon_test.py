@@ -35,7 +35,7 @@ def written(scene=None, objects=(), materials=(), aovs=(), **more):
 class Image(unittest.TestCase):
     def test_the_size_and_the_border_are_blenders(self):
         scene = fake.scene()
-        self.assertEqual(written(scene).document["resolution"], [100, 50])
+        self.assertEqual(written(scene).document["size"], [100, 50])
         self.assertNotIn("crop", written(scene).document)
         scene.render.use_border = True
         self.assertEqual(written(scene).document["crop"], [25, 25, 75, 50])  # y down

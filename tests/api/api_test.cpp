@@ -82,7 +82,7 @@ TEST_F(Api, SettingsOverrideThoseOfTheSceneAndLeaveTheRest) {
 
 TEST_F(Api, ASceneNeedsNoRenderJson) {
     fs::remove(box_ / "render.json");
-    EXPECT_EQ(render(Scene(box_, R"({"resolution": [4, 3], "spp": 1})")).pixels().size(), 4u * 3u * 4u);
+    EXPECT_EQ(render(Scene(box_, R"({"size": [4, 3], "spp": 1})")).pixels().size(), 4u * 3u * 4u);
 }
 
 TEST_F(Api, ErrorsNameFileAndPointer) {
@@ -111,7 +111,7 @@ TEST_F(Api, WarningsAreAList) {
     std::string text = read_file(box_ / "scene.gltf");
     text.replace(text.find(", \"camera\": 0"), 13, "");
     write_file(box_ / "scene.gltf", text);
-    write_file(box_ / "render.json", R"({"resolution": [8, 8], "spp": 1})");
+    write_file(box_ / "render.json", R"({"size": [8, 8], "spp": 1})");
     const Scene scene(box_);
     ASSERT_FALSE(scene.messages().empty());
     EXPECT_NE(scene.messages().front().kind, Message::Kind::Error);

@@ -40,9 +40,8 @@ class Exercise : public testing::Test {
     void exercise(const fs::path& scene, std::string_view settings, int samples = 2) {
         SCOPED_TRACE(fmt::format("{} {}", scene.string(), settings));
         try {
-            const Picture picture =
-                render(Scene(scene, fmt::format(R"({{"resolution": [24, 16], "spp": {}, {}}})", samples, settings)),
-                       {.threads = 2});
+            const Picture picture = render(
+                Scene(scene, fmt::format(R"({{"size": [24, 16], "spp": {}, {}}})", samples, settings)), {.threads = 2});
             const auto is_number = [](float value) { return std::isfinite(value); };
             EXPECT_TRUE(std::ranges::all_of(picture.pixels(), is_number));
             EXPECT_TRUE(std::ranges::any_of(picture.pixels(), [](float value) { return value > 0.0f; }));

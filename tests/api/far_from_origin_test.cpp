@@ -97,9 +97,8 @@ class FarFromOrigin : public testing::TestWithParam<std::string> {
     [[nodiscard]] Picture render_room(const Moves& moves) const {
         const std::filesystem::path directory = folder_ / ("room" + std::to_string(++rooms_));
         write_room(directory, moves);
-        return render(
-            Scene(directory, R"({"resolution": [24, 24], "spp": 16, "aovs": ["P"], "integrator": {"type": ")" +
-                                 GetParam() + R"(", "max_depth": 6}})"));
+        return render(Scene(directory, R"({"size": [24, 24], "spp": 16, "aovs": ["P"], "integrator": {"type": ")" +
+                                           GetParam() + R"(", "max_depth": 6}})"));
     }
 
     TestFolder folder_;

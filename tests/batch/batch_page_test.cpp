@@ -4,6 +4,8 @@
 #include "image/write.h"
 #include "program/small_files.h"
 
+#include <chrono>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
@@ -34,6 +36,7 @@ BatchReport report_of(const std::vector<std::string>& names) {
         BatchUnit unit;
         unit.name = name;
         unit.image = name + ".exr";
+        unit.preview = name + ".png";
         unit.outcome = UnitOutcome::Rendered;
         report.units.push_back(unit);
     }
@@ -50,7 +53,7 @@ TEST(BatchReportFiles, HoldThumbnailsOfTheImages) {
     const TestFolder folder;
     write_image(folder / "large.png", noise(900, 500), {.depth = PixelDepth::UInt8});
     write_image(folder / "tall.png", noise(40, 2000), {.depth = PixelDepth::UInt8});
-    write_batch_report(report_of({"large", "tall"}), folder.path());
+    BatchPageWriter(folder.path()).write(report_of({"large", "tall"}));
     EXPECT_EQ(Json::parse(test::read_file(folder / "report.json"))["units"].size(), 2u);
     const Json images = images_of(folder / "index.html");
     for (const Json& unit : images["units"]) {
@@ -66,7 +69,7 @@ TEST(BatchReportFiles, ImagesThatCannotBeReadLeaveAnEmptyPlace) {
     const TestFolder folder;
     write_image(folder / "whole.png", noise(30, 30), {.depth = PixelDepth::UInt8});
     test::write_file(folder / "broken.png", "\x89PNG\r\n\x1a\n and no more");
-    write_batch_report(report_of({"missing", "broken", "whole"}), folder.path());
+    BatchPageWriter(folder.path()).write(report_of({"missing", "broken", "whole"}));
     const Json units = images_of(folder / "index.html")["units"];
     EXPECT_FALSE(units[0].contains("thumbnail"));
     EXPECT_FALSE(units[1].contains("thumbnail"));
@@ -78,20 +81,37 @@ TEST(BatchReportFiles, WhatFailedShowsNoOlderImage) {
     write_image(folder / "old.png", noise(30, 30), {.depth = PixelDepth::UInt8});
     BatchReport report = report_of({"old"});
     report.units[0].outcome = UnitOutcome::Failed;
-    write_batch_report(report, folder.path());
+    BatchPageWriter(folder.path()).write(report);
     EXPECT_TRUE(images_of(folder / "index.html")["units"][0].empty());
 }
 
 TEST(BatchReportFiles, TooManyImagesHaveNoThumbnailsAndThePageSaysSo) {
     const TestFolder folder;
-    write_batch_report(report_of(std::vector<std::string>(30'000, "missing")), folder.path());
+    BatchPageWriter(folder.path()).write(report_of(std::vector<std::string>(30'000, "missing")));
     const Json images = images_of(folder / "index.html");
     EXPECT_NE(images["note"].get<std::string>().find("too many"), std::string::npos);
 }
 
+TEST(BatchReportFiles, MakeAThumbnailAnewOnlyOfAnImageThatHasChanged) {
+    const TestFolder folder;
+    write_image(folder / "a.png", noise(30, 30), {.depth = PixelDepth::UInt8});
+    BatchPageWriter writer(folder.path());
+    const auto thumbnail = [&] {
+        writer.write(report_of({"a"}));
+        return images_of(folder / "index.html")["units"][0].value("thumbnail", "");
+    };
+    const std::string first = thumbnail();
+    const auto time = std::filesystem::last_write_time(folder / "a.png");
+    test::write_file(folder / "a.png", "broken");
+    std::filesystem::last_write_time(folder / "a.png", time);
+    EXPECT_EQ(thumbnail(), first) << "it was not looked at again";
+    std::filesystem::last_write_time(folder / "a.png", time + std::chrono::seconds(1));
+    EXPECT_EQ(thumbnail(), "");
+}
+
 TEST(BatchReportFiles, AreNotWrittenWhereTheyCannotBe) {
     const TestFolder folder;
-    EXPECT_THROW(write_batch_report(report_of({}), folder / "missing"), IoError);
+    EXPECT_THROW(BatchPageWriter(folder / "missing").write(report_of({})), IoError);
 }
 
 }  // namespace

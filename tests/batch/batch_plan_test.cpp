@@ -110,6 +110,21 @@ TEST_F(BatchPlanTest, TellsTwoStatesOfAFileApart) {
     EXPECT_NE(first, FileStamp{});
 }
 
+TEST_F(BatchPlanTest, SaysWhatMoreSamplesGoOnFrom) {
+    options_.overrides.give("--spp", "12");
+    render();
+    json statistics = json::parse(read_file(folder_ / "box.json"));
+    statistics["requested_settings"] =
+        json::parse(requested_settings(prepare_scene(folder_ / "scene", options_.overrides).scene.settings));
+    write_file(folder_ / "box.json", statistics.dump());
+    options_.overrides.give("--spp", "48");
+    EXPECT_EQ(reason(), "settings changed: spp: 12 -> 48");
+    EXPECT_EQ(unit_.done, 0.0);
+    write_file(folder_ / "box.sums", "");
+    EXPECT_EQ(reason(), "settings changed: spp: 12 -> 48, goes on from its sums");
+    EXPECT_EQ(unit_.done, 0.25);
+}
+
 TEST_F(BatchPlanTest, IsSummedUp) {
     BatchPlan plan(4, unit_);
     EXPECT_EQ(summary(plan), "4 images, all up to date");
@@ -122,9 +137,59 @@ TEST_F(BatchPlanTest, IsSummedUp) {
     EXPECT_EQ(totals(plan).seconds, 120.0);
     const json all = json::parse(to_json(plan));
     EXPECT_EQ(all["stale"], 3);
+    EXPECT_EQ(all["estimated_seconds"], 120.0);
     EXPECT_EQ(all["units"][1]["reason"], "settings changed");
     EXPECT_EQ(all["units"][3]["stale"], false);
     EXPECT_NE(to_table(plan).find("3 of 4 images to render, about 2:00\n"), std::string::npos) << to_table(plan);
+}
+
+TEST_F(BatchPlanTest, TellsWhatWillFailAndWhatIsNotKnown) {
+    BatchPlan plan(4, unit_);
+    for (PlannedUnit& unit : plan) unit.reason = "never rendered";
+    plan[0].estimated_seconds = 174.0;
+    plan[0].outline = {.width = 640, .height = 360, .spp = 256, .integrator = "bdpt", .camera = "front"};
+    plan[2].error = plan[3].error = "error: scene.gltf: not valid JSON\nand a second line";
+    const std::string table = to_table(plan);
+    for (const char* part :
+         {"640x360", "256", "bdpt", "front", "will fail", ": 2 images will fail\n  error: scene.gltf",
+          "\n4 of 4 images to render, \u2265 2:54, 1 unknown; 2 will fail\n"})
+        EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+    const json all = json::parse(to_json(plan));
+    EXPECT_EQ(all["failing"], 2);
+    EXPECT_EQ(all["unknown"], 1);
+    EXPECT_EQ(all["known_seconds"], 174.0);
+    EXPECT_TRUE(all["estimated_seconds"].is_null());
+    EXPECT_EQ(all["units"][0]["camera"], "front");
+    EXPECT_EQ(all["units"][2]["error"], plan[2].error);
+}
+
+TEST_F(BatchPlanTest, IsArranged) {
+    const auto names = [](const BatchPlan& plan) {
+        std::string text;
+        for (const PlannedUnit& unit : plan) text += unit.task.id;
+        return text;
+    };
+    BatchPlan plan(4, unit_);
+    for (std::size_t i = 0; i < 4; ++i) {
+        plan[i].task.id = std::string(1, "cadb"[i]);
+        plan[i].task.job.scene = folder_ / plan[i].task.id;
+        write_scene(plan[i].task.job.scene);
+        for (const char* file : {"scene.gltf", "triangle.bin", "render.json"})
+            age(plan[i].task.job.scene / file, plan[i].task.id == "d" ? 10 : 100 + static_cast<int>(i));
+    }
+    plan[0].estimated_seconds = 3.0;
+    plan[2].estimated_seconds = 1.0;
+    plan[3].estimated_seconds = 2.0;
+    const auto arranged = [&](BatchOrder order) {
+        BatchPlan copy = plan;
+        arrange(copy, order);
+        return names(copy);
+    };
+    EXPECT_EQ(arranged(BatchOrder::Found), "cadb");
+    EXPECT_EQ(arranged(BatchOrder::Shortest), "dbca") << "what is not known comes last";
+    EXPECT_EQ(arranged(BatchOrder::Longest), "cbda");
+    EXPECT_EQ(arranged(BatchOrder::Name), "abcd");
+    EXPECT_EQ(arranged(BatchOrder::Newest), "dcab");
 }
 
 }  // namespace

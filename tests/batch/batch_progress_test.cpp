@@ -1,6 +1,12 @@
 #include "batch/batch_progress.h"
 
+#include "program/small_files.h"
+#include "session/usage_error.h"
+
+#include <chrono>
+#include <ctime>
 #include <optional>
+#include <regex>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -51,7 +57,9 @@ TEST(TimeLeft, WithoutEstimatesIsTheMeanOfWhatHasFinished) {
 TEST(FormatLine, TellsHowFarTheBatchIs) {
     const BatchProgressLine line{
         .done = 12, .failed = 1, .of = 40, .current = "box frame 7", .state = "43%", .elapsed = 62.0, .left = 750.0};
-    EXPECT_EQ(format_line(line, 100), "[12/40, 1 failed] box frame 7: 43%  1:02 elapsed, 12:30 left");
+    EXPECT_TRUE(
+        format_line(line, 100).starts_with("[12/40, 1 failed] box frame 7: 43%  1:02 elapsed, 12:30 left, ends "))
+        << format_line(line, 100);
     EXPECT_EQ(format_line({.done = 1, .of = 3, .current = "box", .state = "load"}, 100),
               "[1/3] box: load  0.0 s elapsed");
 }
@@ -62,6 +70,33 @@ TEST(FormatLine, FitsTheTerminalAndKeepsTheEndOfTheName) {
     for (int width = 0; width < 200; ++width)
         EXPECT_LE(format_line(line, width).size(), static_cast<std::size_t>(width)) << width;
     EXPECT_EQ(format_line(line, static_cast<int>(whole.size()) - 1).substr(0, 29), "[1/3] ...ry/long/name frame 7");
+}
+
+TEST(FormatClock, NamesTheDayUnlessItIsToday) {
+    std::tm noon{};
+    noon.tm_year = 126;
+    noon.tm_mon = 10;
+    noon.tm_mday = 28;
+    noon.tm_hour = 12;
+    const auto now = std::chrono::system_clock::from_time_t(std::mktime(&noon));
+    EXPECT_EQ(format_clock(now + std::chrono::minutes(95), now), "13:35");
+    EXPECT_EQ(format_clock(now + std::chrono::hours(13), now), "Sun 01:00");
+    EXPECT_EQ(format_clock(now + std::chrono::days(9), now), "2026-12-07 12:00");
+}
+
+TEST(BatchLog, HasEveryLineWithItsTime) {
+    const TestFolder folder;
+    {
+        BatchProgress progress(true, folder / "log", std::chrono::milliseconds(0));
+        progress.say("2 of 3 images to render");
+        progress.update({.done = 1, .of = 3, .current = "box", .state = "43%", .left = 60.0});
+    }
+    BatchProgress(true, folder / "log").say("again");
+    const std::string log = read_file(folder / "log");
+    const std::regex lines(R"((\d{4}-\d\d-\d\d \d\d:\d\d:\d\d  )2 of 3 images to render\n)"
+                           R"((.{19}  )\[1/3\] box: 43%  .* elapsed, 1:00 left, ends .*\n.{19}  again\n)");
+    EXPECT_TRUE(std::regex_match(log, lines)) << log;
+    EXPECT_THROW(BatchProgress(true, folder / "no/log"), UsageError);
 }
 
 }  // namespace

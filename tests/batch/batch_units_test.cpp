@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "program/small_files.h"
+#include "session/usage_error.h"
 
 #include <string>
 #include <vector>
@@ -20,8 +21,8 @@ class BatchUnits : public testing::Test {
         options_.roots = {(folder_ / "scenes").string()};
         options_.output = "out";
     }
-    [[nodiscard]] std::vector<BatchTask> collect(const Names& variants = {}) const {
-        return collect_tasks(options_, [&](const std::filesystem::path&) { return variants; });
+    [[nodiscard]] std::vector<BatchTask> collect(const Names& variants = {}, const Names& cameras = {}) const {
+        return collect_tasks(options_, [&](const std::filesystem::path&) { return SceneNames{variants, cameras}; });
     }
     [[nodiscard]] static Names images(const std::vector<BatchTask>& tasks) {
         Names names;
@@ -57,6 +58,58 @@ TEST_F(BatchUnits, AreOneForEachVariantIfAsked) {
     EXPECT_EQ(tasks[1].render_output, "out/shoe.red.exr");
 }
 
+TEST_F(BatchUnits, AreOneForEachCameraIfAsked) {
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_cameras = true;
+    const std::vector<BatchTask> tasks = collect({"red"}, {"front", "top"});
+    EXPECT_EQ(images(tasks), (Names{"out/shoe.front.exr", "out/shoe.top.exr"}));
+    EXPECT_EQ(tasks[1].job.camera, "top");
+    EXPECT_EQ(tasks[1].job.name, "shoe camera top");
+    options_.all_variants = true;
+    EXPECT_EQ(images(collect({"red"}, {"front", "top"})), (Names{"out/shoe.red.front.exr", "out/shoe.red.top.exr"}));
+}
+
+TEST_F(BatchUnits, AreNamedAfterThePattern) {
+    write_scene(folder_ / "scenes/a/still");
+    write_scene(folder_ / "scenes/moving", R"("frames": [3, 9, 4],)");
+    options_.all_cameras = true;
+    options_.name_pattern = "{scene}/{frame}_{variant}-{camera}.v2";
+    EXPECT_EQ(images(collect({}, {"top"})),
+              (Names{"out/a/still/-top.v2.exr", "out/moving/0003-top.v2.exr", "out/moving/0007-top.v2.exr"}));
+    options_.name_pattern = "{scene}.{camera}.{frame}";
+    EXPECT_EQ(images(collect({}, {})), (Names{"out/a/still.exr", "out/moving.0003.exr", "out/moving.0007.exr"}));
+    write_scene(folder_ / "scenes/other");
+    options_.name_pattern = "same";
+    EXPECT_THROW((void)collect(), SceneError);
+    for (const char* wrong : {"{shot}", "a{", "/abs/{scene}", "../{scene}", "{scene}/", "{scene}.exr", "{frame}/a", ""})
+        EXPECT_THROW(check_name_pattern(wrong), UsageError) << wrong;
+    EXPECT_NO_THROW(check_name_pattern("{scene}/{variant}/{camera}.{frame}"));
+}
+
+TEST_F(BatchUnits, AreThoseThatGlobsChoose) {
+    for (const char* scene : {"shots/a", "shots/b", "props/lamp"}) write_scene(folder_ / "scenes" / scene);
+    options_.only = {"shots/*"};
+    EXPECT_EQ(images(collect()), (Names{"out/shots/a.exr", "out/shots/b.exr"}));
+    options_.only = {"shots", "l?mp"};
+    options_.exclude = {"b"};
+    EXPECT_EQ(images(collect()), (Names{"out/props/lamp.exr", "out/shots/a.exr"}));
+    options_.overrides.give("--frames", "1:12");
+    options_.only = {"*a.000[2-3]"};
+    EXPECT_EQ(images(collect()), (Names{"out/shots/a.0002.exr", "out/shots/a.0003.exr"}));
+    options_.only = {"shot"};
+    try {
+        (void)collect();
+        ADD_FAILURE() << "nothing is called so";
+    } catch (const UsageError& error) {
+        EXPECT_NE(std::string(error.what()).find("--only 'shot' matches no image; there are props/lamp.0001, "),
+                  std::string::npos)
+            << error.what();
+    }
+    options_.only = {"a"};
+    options_.exclude = {"shots"};
+    EXPECT_THROW((void)collect(), UsageError) << "nothing is left";
+}
+
 TEST_F(BatchUnits, HaveFileNamesOfTheirOwnWhateverVariantsAreCalled) {
     write_scene(folder_ / "scenes/shoe");
     options_.all_variants = true;
@@ -73,7 +126,7 @@ TEST_F(BatchUnits, OfOneFileAreAnError) {
     EXPECT_EQ(collect().size(), 2u);
     EXPECT_THROW((void)collect_tasks(options_,
                                      [](const std::filesystem::path& scene) {
-                                         return scene.extension() == ".red" ? Names{} : Names{"red"};
+                                         return SceneNames{scene.extension() == ".red" ? Names{} : Names{"red"}, {}};
                                      }),
                  SceneError);
 }

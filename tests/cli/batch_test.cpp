@@ -3,6 +3,7 @@
 #include "program/small_files.h"
 #include "support/sanitizers.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -45,9 +46,8 @@ class Batch : public testing::Test {
     /// A scene that takes at least so many seconds.
     void add_slow_scene(const std::string& name, double seconds) const {
         add_scene(name);
-        write_file(
-            folder_ / ("scenes/" + name + "/render.json"),
-            fmt::format(R"({{"resolution": [16, 12], "spp": 10000000, "time": {}, "environment": {{}}}})", seconds));
+        write_file(folder_ / ("scenes/" + name + "/render.json"),
+                   fmt::format(R"({{"size": [16, 12], "spp": 10000000, "time": {}, "environment": {{}}}})", seconds));
     }
     [[nodiscard]] Names arguments(const Names& more = {}) const {
         Names all{"batch", (folder_ / "scenes").string(), "-o", "out", "--no-probe"};
@@ -168,6 +168,138 @@ TEST_F(Batch, ADryRunPrintsThePlanAndWritesNothing) {
     EXPECT_EQ(plan["units"][1]["reason"], "settings changed: seed: 0 -> 3");
     EXPECT_TRUE(plan["units"][1]["estimated_seconds"].is_null());
     EXPECT_EQ(list(work_), before);
+}
+
+TEST_F(Batch, ADryRunSaysWhatWillFail) {
+    add_scene("a");
+    add_scene("b", R"("spq": 3,)");
+    add_scene("c");
+    write_file(folder_ / "scenes/c/render.json", R"({"size": [16, 12], "spp": 2, "camera": "front"})");
+    add_scene("d");
+    write_file(folder_ / "scenes/d/scene.gltf", "{");
+    for (const bool probes : {true, false}) {
+        Names dry = arguments({"--dry-run"});
+        if (probes) std::erase(dry, "--no-probe");
+        const ProgramResult result = run_etendue(dry, work_);
+        EXPECT_EQ(result.exit_code, 3) << result.err;
+        for (const char* said :
+             {"unknown key 'spq'; did you mean 'spp'?", "there is no camera 'front'; there are 'main'",
+              "scenes/d/scene.gltf: not valid JSON", "; 3 will fail\n", "16x12", "path", "main"})
+            EXPECT_NE(result.out.find(said), std::string::npos) << said << "\n" << result.out;
+        EXPECT_TRUE(list(work_).empty());
+    }
+    EXPECT_EQ(run({"--dry-run", "--only", "a"}).exit_code, 0);
+}
+
+TEST_F(Batch, OptionsThatFitNoSceneAreSaidOnce) {
+    add_scene("a");
+    add_scene("b");
+    const auto with_probe = [&](Names more) {
+        more.insert(more.begin(), {"batch", (folder_ / "scenes").string(), "-o", "out"});
+        return run_etendue(more, work_);
+    };
+    for (const Names& wrong :
+         {Names{"--display", "none"}, Names{"--aov", "dept"}, Names{"--only", "z"}, Names{"--name", "{shot}"},
+          Names{"--order", "longest", "--no-probe"}, Names{"--log", "no/log"}}) {
+        const ProgramResult result = with_probe(wrong);
+        EXPECT_EQ(result.exit_code, 2) << wrong[1] << result.err;
+        EXPECT_TRUE(result.err.starts_with("error: --")) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        EXPECT_TRUE(list(work_).empty());
+    }
+    const ProgramResult camera = with_probe({"--camera", "front"});
+    EXPECT_EQ(camera.exit_code, 2) << camera.err;
+    EXPECT_TRUE(events("unit started").empty()) << "no scene has it";
+}
+
+TEST_F(Batch, ShowsWhatIsRunningAndWhenItEnds) {
+    add_slow_scene("a", 2.0);
+    add_scene("b");
+    const auto batch = start({"--threads", "1"});
+    json report;
+    ASSERT_TRUE(wait_until([&] {
+        if (!fs::exists(work_ / "out/report.json")) return false;
+        report = json::parse(read_file(work_ / "out/report.json"));
+        return report["units"][0]["fraction"].is_number() || batch->has_ended();
+    }));
+    EXPECT_EQ(report["state"], "running");
+    EXPECT_EQ(report["units"][0]["outcome"], "running");
+    EXPECT_EQ(report["totals"]["running"], 1);
+    EXPECT_EQ(report["units"][1]["outcome"], "not started");
+    EXPECT_TRUE(report["ended"].is_null());
+    EXPECT_NE(read_file(work_ / "out/index.html").find("\"running\""), std::string::npos);
+    expect_end(*batch, 0);
+    report = json::parse(read_file(work_ / "out/report.json"));
+    EXPECT_EQ(report["state"], "ended");
+    EXPECT_TRUE(report["units"][0]["fraction"].is_null());
+}
+
+TEST_F(Batch, GoesOnFromTheSumsOfAFinishedImage) {
+    add_scene("a");
+    EXPECT_EQ(run({"--keep-sums", "--float"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work_ / "out/a.sums"));
+    EXPECT_NE(run({"--float", "--time", "60"}).err.find("1 image, all up to date"), std::string::npos);
+    const ProgramResult plan = run({"--float", "--spp", "8", "--dry-run"});
+    EXPECT_NE(plan.out.find("spp: 2 -> 8, goes on from its sums"), std::string::npos) << plan.out;
+    const std::string scene = (folder_ / "scenes/a").string();
+    const ProgramResult more =
+        run_etendue({"render", scene, "--float", "--spp", "8", "-o", "out/a.exr", "--resume"}, work_);
+    EXPECT_NE(more.err.find("going on after 2 of 8 samples"), std::string::npos) << more.err;
+    EXPECT_FALSE(fs::exists(work_ / "out/a.sums"));
+    const json statistics = json::parse(read_file(work_ / "out/a.json"));
+    EXPECT_EQ(statistics["spp"]["done"], 8);
+    const ProgramResult anew =
+        run_etendue({"render", scene, "--float", "--spp", "8", "-o", "anew.exr", "--quiet"}, work_);
+    EXPECT_EQ(anew.exit_code, 0) << anew.err;
+    const ProgramResult difference = run_etendue({"diff", "out/a.exr", "anew.exr", "--json"}, work_);
+    EXPECT_EQ(json::parse(difference.out)["measures"]["mse"]["value"], 0.0) << difference.out;
+    // Sums of another render are of no use, and no obstacle.
+    EXPECT_EQ(run({"--keep-sums", "--float", "--spp", "4", "--force"}).exit_code, 0);
+    EXPECT_EQ(run({"--float", "--spp", "8", "--seed", "3"}).exit_code, 0);
+}
+
+TEST_F(Batch, MakesWhatIsChosenAndTellsOfItWhereItIsAsked) {
+    add_scene("a");
+    add_scene("b", R"("spq": 3,)");
+    const ProgramResult result =
+        run({"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--log", "log", "--on-finish",
+             "echo $ETENDUE_RENDERED $ETENDUE_FAILED $ETENDUE_EXIT_CODE > finished"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_EQ(read_file(work_ / "finished"), "1 1 1\n");
+    EXPECT_NE(read_file(work_ / "log").find("  [1/2] a camera main: rendered in "), std::string::npos);
+    EXPECT_TRUE(fs::exists(work_ / "out/a/main.exr"));
+    EXPECT_FALSE(fs::exists(work_ / "out/a/main.png"));
+    const json unit = json::parse(read_file(work_ / "out/report.json"))["units"][0];
+    EXPECT_EQ(unit["camera"], "main");
+    EXPECT_TRUE(unit["preview"].is_null());
+    const json failed = json::parse(
+        run({"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--failed", "--dry-run", "--json"}).out);
+    EXPECT_EQ(failed["units"].size(), 1u);
+    EXPECT_EQ(failed["units"][0]["reason"], "failed last time");
+    EXPECT_NE(run({"--failed", "--only", "a"}).err.find("no image in out failed last time"), std::string::npos);
+}
+
+TEST_F(Batch, DenoisesWhatIsNotDenoisedYet) {
+    add_scene("a");
+    EXPECT_EQ(run({"--denoise"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work_ / "out/a.denoised.exr"));
+    EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["units"][0]["preview"], "a.denoised.png");
+    EXPECT_NE(run({"--denoise"}).err.find("1 image, all up to date"), std::string::npos);
+    fs::remove(work_ / "out/a.denoised.exr");
+    const auto time = fs::last_write_time(work_ / "out/a.exr");
+    EXPECT_NE(run({"--denoise"}).err.find("1 was not denoised"), std::string::npos);
+    EXPECT_EQ(fs::last_write_time(work_ / "out/a.exr"), time) << "it was not rendered again";
+    EXPECT_TRUE(fs::exists(work_ / "out/a.denoised.png"));
+}
+
+TEST_F(Batch, SaysANoteOfAManyFramedSceneOnce) {
+    add_scene("a");
+    (void)animated_scene((folder_ / "scenes/a").string());
+    name_missing_texture(folder_ / "scenes/a");
+    const std::string err = run({"--frames", "1:3"}).err;
+    const std::size_t first = err.find("missing.hdr");
+    ASSERT_NE(first, std::string::npos) << err;
+    EXPECT_EQ(err.find("missing.hdr", err.find('\n', first)), std::string::npos) << err;
 }
 
 TEST_F(Batch, VariantsAreImagesOfTheirOwn) {
@@ -357,7 +489,7 @@ TEST_F(Batch, InputThatVanishesOrCannotBeDecodedFailsItsImageOnly) {
 TEST_F(Batch, TheMemoryLimitFailsTheSceneThatNeedsMore) {
     if (kHasSanitizers) GTEST_SKIP() << "AddressSanitizer maps more memory than any limit allows";
     add_scene("large", R"("unused": 0,)");
-    write_file(folder_ / "scenes/large/render.json", R"({"resolution": [8192, 8192], "spp": 1, "environment": {}})");
+    write_file(folder_ / "scenes/large/render.json", R"({"size": [8192, 8192], "spp": 1, "environment": {}})");
     add_scene("small");
     const ProgramResult result = run({"--max-memory", "1G", "--threads", "1"});
     EXPECT_EQ(result.exit_code, 1);
@@ -370,7 +502,7 @@ TEST_F(Batch, TheMemoryLimitFailsTheSceneThatNeedsMore) {
 }
 
 TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
-    const std::string settings = R"({"resolution": [64, 48], "spp": 1000, "environment": {}})";
+    const std::string settings = R"({"size": [64, 48], "spp": 1000, "environment": {}})";
     add_scene("a");
     add_scene("b");
     write_file(folder_ / "scenes/a/render.json", settings);
@@ -401,7 +533,7 @@ TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
 TEST_F(Batch, ASignalToAllProcessesStillWritesWhatThereIs) {
     add_scene("a");
     // Large enough for the image to be written for a while.
-    write_file(folder_ / "scenes/a/render.json", R"({"resolution": [640, 480], "spp": 10000000, "environment": {}})");
+    write_file(folder_ / "scenes/a/render.json", R"({"size": [640, 480], "spp": 10000000, "environment": {}})");
     const auto batch = start({"--checkpoint-every", "0.01"});
     const int child = child_of(*batch);
     ASSERT_TRUE(wait_until([&] { return fs::exists(work_ / "out/a.checkpoint"); }));
@@ -471,7 +603,7 @@ TEST_P(BatchEitherWay, ADamagedCheckpointIsNoObstacle) {
 TEST_F(Batch, AFailureBeforeTheFirstSampleKeepsTheCheckpoint) {
     add_scene("a");
     const fs::path settings = folder_ / "scenes/a/render.json";
-    write_file(settings, R"({"resolution": [16, 12], "spp": 10000000, "environment": {}})");
+    write_file(settings, R"({"size": [16, 12], "spp": 10000000, "environment": {}})");
     const auto batch = start({"--checkpoint-every", "0.001"});
     ASSERT_TRUE(wait_until([&] { return fs::exists(work_ / "out/a.checkpoint"); }));
     batch->send(SIGKILL);
@@ -529,8 +661,8 @@ TEST_F(Batch, ADirectoryThatCannotBeWrittenIsAnErrorBeforeAnythingStarts) {
     add_scene("a");
     write_file(work_ / "out", "a file");
     const ProgramResult file = run();
-    EXPECT_EQ(file.exit_code, 1);
-    EXPECT_NE(file.err.find("error: cannot"), std::string::npos) << file.err;
+    EXPECT_EQ(file.exit_code, 2);
+    EXPECT_NE(file.err.find("error: --output 'out' is a file"), std::string::npos) << file.err;
     EXPECT_EQ(list(work_), Names{"out"});
     // Nobody may write there, not even root.
     const ProgramResult system =

@@ -113,7 +113,7 @@ void write_chart_scene(const fs::path& directory) {
     }
     gltf["scenes"] = {{{"nodes", roots}}};
     write_file(directory / "scene.gltf", gltf.dump());
-    const json settings = {{"resolution", {kColumns * kPatch, kRows * kPatch}},
+    const json settings = {{"size", {kColumns * kPatch, kRows * kPatch}},
                            {"spp", 1},
                            {"integrator", {{"max_depth", 1}}},
                            {"film", {{"filter", "box"}}},

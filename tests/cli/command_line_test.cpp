@@ -241,12 +241,12 @@ TEST_F(CommandLine, UsageErrorsEndWithTwo) {
                                                        {"render", box, "--speed"},
                                                        {"render", box, "--spp", "0"},
                                                        {"render", box, "--size", "12"},
-                                                       {"render", box, "-o", "image.png"},
+                                                       {"render", box, "-o", "image.jpg"},
                                                        {"render", box, "--threads", "0"},
                                                        {"batch", scenes()},
                                                        {"batch", "no-such-directory", "-o", "out"},
                                                        {"inspect"},
-                                                       {"inspect", box, "--spp", "4"}};
+                                                       {"inspect", box, "--spq", "4"}};
     for (const auto& arguments : bad) {
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << (arguments.empty() ? "" : arguments.back()) << "\n" << result.err;
@@ -286,7 +286,7 @@ TEST_F(CommandLine, QuietPrintsNothingAndJsonOnlyJson) {
 
 TEST_F(CommandLine, AMissingCameraAndLightAreAddedAndSaid) {
     const std::string box = scene("box");
-    write_file(box + "/render.json", R"({"resolution": [8, 8], "spp": 1})");
+    write_file(box + "/render.json", R"({"size": [8, 8], "spp": 1})");
     std::string text = read_file(box + "/scene.gltf");
     text.replace(text.find(", \"camera\": 0"), 13, "");
     write_file(box + "/scene.gltf", text);
@@ -674,7 +674,7 @@ TEST_F(CommandLine, InspectTellsWhatWasLoadedAndRendersNothing) {
 
 TEST_F(CommandLine, EnvironmentsMayComeFromDirectoriesThatAreNamed) {
     const std::string box = scene("box");
-    std::ofstream(fs::path(box) / "render.json") << R"({"resolution": [4, 4], "environment": {"image": "sky.hdr"}})";
+    std::ofstream(fs::path(box) / "render.json") << R"({"size": [4, 4], "environment": {"image": "sky.hdr"}})";
     fs::create_directories(work_ / "skies");
     std::ofstream(work_ / "skies/sky.hdr", std::ios::binary)
         << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x81";

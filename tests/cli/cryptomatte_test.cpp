@@ -46,7 +46,7 @@ void write_mattes_scene(const fs::path& directory) {
   "buffers": [{"uri": "triangle.bin", "byteLength": 36}]
 })");
     write_file(directory / "render.json",
-               R"({"resolution": [16, 12], "camera": "main", "environment": {"visible_to_camera": false}})");
+               R"({"size": [16, 12], "camera": "main", "environment": {"visible_to_camera": false}})");
 }
 
 class Cryptomatte : public testing::Test {

@@ -49,7 +49,7 @@ class Manual : public testing::Test {
 /// The names that lines of --help begin with, or the words of its list of commands.
 std::set<std::string> first_words(const std::string& help, const std::string& pattern) {
     std::set<std::string> names;
-    const std::regex line("(^|\n)  (-., ?)?(" + pattern + ")(?=[ \n,])");
+    const std::regex line("(^|\n) {2,6}(-., ?)?(" + pattern + ")(?=[ \n,])");
     for (std::sregex_iterator i(help.begin(), help.end(), line); i != std::sregex_iterator(); ++i)
         names.insert((*i)[3].str());
     return names;

@@ -346,7 +346,7 @@ TEST_F(Submit, RefusedJobsLeaveNoHalvesBehind) {
 
 TEST_F(Submit, AnInterruptStopsItBeforeTheNextScene) {
     scene("a");
-    write_file(folder_ / "scenes/a/render.json", R"({"resolution": [16, 12], "spp": 10000000, "environment": {}})");
+    write_file(folder_ / "scenes/a/render.json", R"({"size": [16, 12], "spp": 10000000, "environment": {}})");
     scene("b", R"("ssp": 1,)");
     const std::vector<std::string> arguments{
         "submit", (folder_ / "scenes").string(), "-o", out().string(), "--scheduler", "slurm"};

@@ -65,7 +65,7 @@ void write_scene(const fs::path& directory, const std::string& extra) {
   "buffers": [{"uri": "triangle.bin", "byteLength": 36}]
 })");
     write_file(directory / "render.json",
-               "{" + extra + R"("resolution": [16, 12], "spp": 2, "camera": "main", "environment": {}})");
+               "{" + extra + R"("size": [16, 12], "spp": 2, "camera": "main", "environment": {}})");
 }
 
 void name_missing_texture(const fs::path& directory) {

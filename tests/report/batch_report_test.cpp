@@ -20,6 +20,7 @@ BatchUnit rendered(const std::string& name) {
     BatchUnit unit;
     unit.name = name;
     unit.image = name + ".exr";
+    unit.preview = name + ".png";
     unit.outcome = UnitOutcome::Rendered;
     unit.seconds = UnitSeconds{1.0, 2.0, 30.0, 0.5};
     unit.rays = 100;
@@ -63,11 +64,13 @@ TEST(BatchTotals, CountOutcomesAndSumUpWhatThisBatchRendered) {
 
 TEST(BatchTotals, EveryOutcomeHasItsCount) {
     BatchReport report;
-    for (const UnitOutcome outcome : {UnitOutcome::Rendered, UnitOutcome::UpToDate, UnitOutcome::Failed,
-                                      UnitOutcome::Interrupted, UnitOutcome::RunningElsewhere, UnitOutcome::NotStarted})
+    for (const UnitOutcome outcome :
+         {UnitOutcome::Rendered, UnitOutcome::UpToDate, UnitOutcome::Failed, UnitOutcome::Interrupted,
+          UnitOutcome::Running, UnitOutcome::RunningElsewhere, UnitOutcome::NotStarted})
         report.units.push_back(with_outcome({}, outcome));
     const Json sums = Json::parse(to_json(report))["totals"];
-    for (const char* outcome : {"rendered", "up_to_date", "failed", "interrupted", "running_elsewhere", "not_started"})
+    for (const char* outcome :
+         {"rendered", "up_to_date", "failed", "interrupted", "running", "running_elsewhere", "not_started"})
         EXPECT_EQ(sums[outcome], 1) << outcome;
 }
 
@@ -76,6 +79,7 @@ TEST(BatchJson, HoldsWhatIsKnown) {
     EXPECT_EQ(json["format"], 1);
     EXPECT_EQ(json["title"], "out");
     EXPECT_TRUE(json["ended"].is_null()) << "under way";
+    EXPECT_EQ(json["state"], "planning");
     EXPECT_EQ(json["units"].size(), 4u);
     const Json& frame = json["units"][1];
     EXPECT_EQ(frame["frame"], 1);
@@ -85,9 +89,9 @@ TEST(BatchJson, HoldsWhatIsKnown) {
     EXPECT_EQ(failed["outcome"], "failed");
     EXPECT_EQ(failed["error"], "no such file");
     EXPECT_EQ(failed["log"], Json({"one", "two"}));
-    for (const char* key :
-         {"frame", "variant", "reason", "signal", "host", "width", "height", "spp", "integrator", "halt_reason",
-          "seconds", "estimated_seconds", "rays", "rays_per_second", "peak_memory_bytes"})
+    for (const char* key : {"frame", "variant", "camera", "fraction", "seconds_left", "spp_requested", "reason",
+                            "signal", "host", "width", "height", "spp", "integrator", "halt_reason", "seconds",
+                            "estimated_seconds", "rays", "rays_per_second", "peak_memory_bytes"})
         EXPECT_TRUE(failed.contains(key) && failed[key].is_null()) << key;
 }
 
@@ -113,10 +117,12 @@ TEST(BatchPage, HoldsTheReportAndItsThumbnails) {
 
 TEST(BatchPage, LinksLeadToTheImagesBesideIt) {
     BatchReport report = small_report();
-    report.units[0].image = "javascript:a/\"x\" <y>?#%\xff.exr";
+    report.units[0].preview = "javascript:a/\"x\" <y>?#%\xff.png";
+    report.units[2].preview.clear();
     const Json units = script(make_batch_page(report, {.files = Files(4)}), "thumbnails")["units"];
     EXPECT_EQ(units[0]["link"], "./javascript%3Aa/%22x%22%20%3Cy%3E%3F%23%25%FF.png");
     EXPECT_EQ(units[1]["link"], "./b.0001.png");
+    EXPECT_FALSE(units[2].contains("link")) << "there is no PNG";
     EXPECT_FALSE(units[3].contains("link")) << "what failed has no image";
 }
 

@@ -20,7 +20,7 @@ TEST(Dump, NamesEverythingButBulkArrays) {
           "override conductor Au roughness 0.25", "1 triangles, 3 vertices, material 0, tangents, uv0, uv1, colours",
           "instance 0", "camera 0 \"main\": perspective yfov 0.8", "light 0 \"\": spot", "times IES profile 0",
           "IES profile 0 \"lamp.ies\": 2 x 2 directions, peak 4 cd", "environment cube map: images -1", "environment:",
-          "light_units: \"radiometric\"", "integrator.type: \"auto\"", "spp: 64", "resolution: [1024, 576]"}) {
+          "light_units: \"radiometric\"", "integrator.type: \"auto\"", "spp: 64", "size: [1024, 576]"}) {
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
     }
 }

@@ -135,7 +135,7 @@ const Defect kDefects[] = {
      }},
     {"UnknownCamera", "did you mean 'main'", [](SceneDesc& s) { s.settings.camera = "mian"; }},
     {"SppZero", "spp", [](SceneDesc& s) { s.settings.spp = 0; }},
-    {"WidthHuge", "resolution is [65537", [](SceneDesc& s) { s.settings.film.width = 65537; }},
+    {"WidthHuge", "size is [65537", [](SceneDesc& s) { s.settings.film.width = 65537; }},
     {"CropOutside", "crop",
      [](SceneDesc& s) {
          s.settings.film.crop = {{0, 0, 2100, 10}};

@@ -43,7 +43,7 @@ class DroppedSamples : public testing::Test {
     void SetUp() override {
         write_scene(folder_ / "sky");
         write_file(folder_ / "sky/render.json",
-                   R"({"resolution": [16, 12], "camera": "main", "environment": {"color": [1e38, 1e38, 1e38]}})");
+                   R"({"size": [16, 12], "camera": "main", "environment": {"color": [1e38, 1e38, 1e38]}})");
     }
     [[nodiscard]] Report render(const Arguments& more) const {
         Arguments arguments{"render", "sky", "--spp", "3", "--seed", "5", "-o", "sky.exr"};

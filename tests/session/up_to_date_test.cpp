@@ -1,12 +1,15 @@
 #include "session/up_to_date.h"
 
 #include "program/small_files.h"
+#include "render/render.h"
 #include "session/input_files.h"
 #include "session/prepared_scene.h"
 
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -24,13 +27,17 @@ class UpToDate : public testing::Test {
         write_file(output_.png, "png");
         write_report();
     }
-    [[nodiscard]] static RenderStatistics complete() {
+    [[nodiscard]] RenderStatistics complete() const {
+        const PreparedScene prepared = prepare_scene(scene_, overrides_);
         RenderStatistics statistics;
-        statistics.settings_hash = "abc";
+        statistics.settings_hash = settings_hash(prepared.scene, PixelDepth::Half);
+        statistics.requested_settings = requested_settings(prepared.scene.settings);
+        statistics.spp_requested = statistics.spp_done = prepared.scene.settings.spp;
         return statistics;
     }
-    void write_report(RenderStatistics statistics = complete()) {
-        PreparedScene prepared = prepare_scene(scene_, {});
+    void write_report() { write_report(complete()); }
+    void write_report(RenderStatistics statistics) {
+        PreparedScene prepared = prepare_scene(scene_, overrides_);
         hash_inputs(prepared.scene, prepared.inputs);
         statistics.inputs = prepared.inputs;
         write_file(output_.json, to_json(statistics));
@@ -39,16 +46,26 @@ class UpToDate : public testing::Test {
         fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(seconds));
     }
     /// Why the image is to be rendered again; empty if it is not.
-    [[nodiscard]] std::string reason(const std::string& hash = "abc") const {
+    [[nodiscard]] std::string reason(PixelDepth depth = PixelDepth::Half) const {
         if (const auto stale = why_unfinished(output_)) return stale->reason;
         if (const auto stale = why_outdated(output_, scene_)) return stale->reason;
-        const PreparedScene prepared = prepare_scene(scene_, {});
-        EXPECT_EQ(is_up_to_date(output_, scene_, prepared.scene, hash), !why_outdated(output_, prepared.scene, hash));
-        const auto stale = why_outdated(output_, prepared.scene, hash);
+        const PreparedScene prepared = prepare_scene(scene_, overrides_);
+        EXPECT_EQ(is_up_to_date(output_, scene_, prepared.scene, depth), !why_outdated(output_, prepared.scene, depth));
+        const auto stale = why_outdated(output_, prepared.scene, depth);
         return stale ? stale->reason : "";
     }
 
+    /// Why the image is to be rendered again with other options than it was made with.
+    [[nodiscard]] std::string reason_with(const std::vector<std::pair<std::string, std::string>>& options) {
+        const SettingsOverrides before = overrides_;
+        for (const auto& [option, value] : options) overrides_.give(option, value);
+        std::string why = reason();
+        overrides_ = before;
+        return why;
+    }
+
     TestFolder folder_;
+    SettingsOverrides overrides_{};
     fs::path scene_ = folder_ / "box";
     fs::path bin_ = scene_ / "triangle.bin";
     OutputPaths output_ = OutputPaths::beside(folder_ / "image.exr");
@@ -56,8 +73,56 @@ class UpToDate : public testing::Test {
 
 TEST_F(UpToDate, WhenMadeOfTheSameFilesWithTheSameSettings) {
     EXPECT_EQ(reason(), "");
-    EXPECT_EQ(reason("abd"), "settings changed");
-    EXPECT_EQ(reason(""), "settings changed");
+    EXPECT_EQ(reason(PixelDepth::Float), "settings changed");
+    EXPECT_EQ(reason_with({{"--seed", "3"}}), "settings changed: seed: 0 -> 3");
+}
+
+/// The scene has 2 samples.
+TEST_F(UpToDate, WhenWhatIsAskedWasReached) {
+    EXPECT_EQ(reason_with({{"--time", "60"}}), "") << "it has all samples in any time";
+    EXPECT_EQ(reason_with({{"--error", "0.01"}}), "") << "it has the most that every pixel may get";
+    EXPECT_EQ(reason_with({{"--time", "60"}, {"--seed", "3"}}), "settings changed: seed: 0 -> 3; time: 0 -> 60");
+    EXPECT_EQ(reason_with({{"--spp", "4"}}), "settings changed: spp: 2 -> 4");
+    EXPECT_EQ(reason_with({{"--spp", "1"}}), "settings changed: spp: 2 -> 1");
+}
+
+TEST_F(UpToDate, WhenTheTimeLimitThatIsAskedWasReached) {
+    overrides_.give("--spp", "1000");
+    overrides_.give("--time", "60");
+    RenderStatistics statistics = complete();
+    statistics.spp_done = 300;
+    statistics.render.wall = 57.0;
+    statistics.halt_reason = halt_reason_name(HaltReason::TimeLimit);
+    write_report(statistics);
+    EXPECT_EQ(reason(), "");
+    EXPECT_EQ(reason_with({{"--time", "59"}}), "") << "the next pass would have been too much";
+    EXPECT_EQ(reason_with({{"--time", "30"}}), "") << "it was rendered for longer";
+    EXPECT_EQ(reason_with({{"--time", "90"}}), "settings changed: time: 60 -> 90");
+    EXPECT_EQ(reason_with({{"--time", "0"}}), "settings changed: time: 60 -> 0");
+    EXPECT_EQ(reason_with({{"--spp", "300"}}), "") << "it has all of these";
+    EXPECT_EQ(reason_with({{"--spp", "2000"}}), "") << "the time is over before";
+    EXPECT_EQ(reason_with({{"--spp", "200"}}), "settings changed: spp: 1000 -> 200");
+}
+
+TEST_F(UpToDate, WhenTheErrorThatIsAskedWasReached) {
+    overrides_.give("--spp", "1000");
+    overrides_.give("--error", "0.02");
+    RenderStatistics statistics = complete();
+    statistics.spp_done = 48;
+    statistics.adaptive = RenderStatistics::AdaptiveSpp{48, 120.0, 300};
+    statistics.relative_error = 0.019;
+    write_report(statistics);
+    EXPECT_EQ(reason_with({{"--error", "0.03"}}), "");
+    EXPECT_EQ(reason_with({{"--error", "0.01"}}), "settings changed: error: 0.02 -> 0.01");
+    EXPECT_EQ(reason_with({{"--error", "0"}, {"--spp", "300"}}), "settings changed: spp: 1000 -> 300; error: 0.02 -> 0")
+        << "not every pixel has these";
+}
+
+TEST_F(UpToDate, WithoutAPreviewIfNoneIsWanted) {
+    fs::remove(output_.png);
+    EXPECT_EQ(reason(), "image.png is missing");
+    output_.png.clear();
+    EXPECT_EQ(reason(), "");
 }
 
 TEST_F(UpToDate, NotWhenAnInputHasAnotherContentHoweverOldItIs) {
@@ -113,8 +178,9 @@ TEST_F(UpToDate, NotWhenATextureIsThereThatWasMissingOrBroken) {
 }
 
 TEST_F(UpToDate, AlsoWhereTheSceneHasBeenMovedOrCopied) {
-    fs::rename(scene_, folder_ / "moved");
-    scene_ = folder_ / "moved";
+    fs::create_directory(folder_ / "elsewhere");
+    fs::rename(scene_, folder_ / "elsewhere/box");
+    scene_ = folder_ / "elsewhere/box";
     EXPECT_EQ(reason(), "");
     fs::copy(scene_, folder_ / "copied", fs::copy_options::recursive);
     EXPECT_FALSE(why_outdated(output_, folder_ / "copied" / "scene.gltf"));
@@ -142,6 +208,7 @@ TEST_F(UpToDate, NotWhenAFileOfALayerIsMissing) {
 TEST_F(UpToDate, NotWhenTheRenderWasCutShortOrItsReportIsForeign) {
     RenderStatistics statistics = complete();
     statistics.complete = false;
+    statistics.spp_requested = statistics.spp_done = 0;
     write_report(statistics);
     EXPECT_EQ(reason(), "was not finished");
     for (const char* text : {"", "{", "[]", "null", "{}", R"({"complete": true})", R"({"settings_hash": "abc"})",

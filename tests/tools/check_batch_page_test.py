@@ -13,9 +13,9 @@ NO_BROWSER = 2
 
 def main():
     sample_batch = sys.argv[1]
-    for units in ("0", "70"):
+    for units in (("0",), ("70", "running")):
         with tempfile.TemporaryDirectory() as directory:
-            subprocess.run([sample_batch, directory, units], check=True)
+            subprocess.run([sample_batch, directory, *units], check=True)
             status = subprocess.run([sys.executable, "-B", CHECK, directory], check=False).returncode
         if status == NO_BROWSER:
             # As GTEST_SKIP() says it, so that tools/test lists it.

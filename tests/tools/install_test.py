@@ -94,7 +94,7 @@ class InstallTest(unittest.TestCase):
         run("cmake", "--build", build)
         scene = self.folder / "box"
         shutil.copytree(self.prefix / "share/etendue/scenes/cornell-box", scene)
-        (scene / "render.json").write_text('{"resolution": [16, 12]}')
+        (scene / "render.json").write_text('{"size": [16, 12]}')
         output = run(build / "render_scene", scene, self.folder / "library.exr")
         self.assertIn("100%", output)
         self.assertIn("layer depth", output)

@@ -128,10 +128,10 @@ class Mutants(unittest.TestCase):
             self.written(make_mutant(number, 3, self.bases, SIZE).model)
 
     def test_large_images_become_small_and_wrong_sizes_stay(self):
-        for settings, expected in (({}, {"spp": 1, "resolution": [8, 8]}),
-                                   ({"spp": 64, "resolution": [1, 65536]}, {"spp": 1, "resolution": [8, 8]}),
-                                   ({"spp": "64", "resolution": [0, 9]}, {"spp": "64", "resolution": [0, 9]}),
-                                   ({"spp": True, "resolution": [9]}, {"spp": True, "resolution": [9]})):
+        for settings, expected in (({}, {"spp": 1, "size": [8, 8]}),
+                                   ({"spp": 64, "size": [1, 65536]}, {"spp": 1, "size": [8, 8]}),
+                                   ({"spp": "64", "size": [0, 9]}, {"spp": "64", "size": [0, 9]}),
+                                   ({"spp": True, "size": [9]}, {"spp": True, "size": [9]})):
             make_small(settings, SIZE)
             self.assertEqual(settings, expected)
         settings = {"integrator": {"max_depth": 1 << 30, "roulette_depth": -1, "min_depth": 3}}

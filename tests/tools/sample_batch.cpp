@@ -1,7 +1,9 @@
 // Writes the report of a batch that never was, for tools/ci/check_batch_page: every outcome, names and errors that
 // would like to be markup, and as many units as are asked for.
 //
-// Usage: sample_batch DIRECTORY UNITS [PNG...]. The images are the files that are named, or else some that are made.
+// Usage: sample_batch DIRECTORY UNITS [running] [PNG...]. The batch goes on still if it is "running". The images are
+// the files that are named, or else some that are made.
+#include "batch/batch_ledger.h"
 #include "batch/batch_page.h"
 #include "image/write.h"
 
@@ -10,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,6 +92,17 @@ void fill_statistics(BatchUnit& unit, int index) {
     unit.attempts = unit.outcome == UnitOutcome::UpToDate ? 0 : 1;
 }
 
+void fill_running(BatchUnit& unit) {
+    unit.width = 1920;
+    unit.height = 1080;
+    unit.spp = 110;
+    unit.spp_requested = 256;
+    unit.integrator = "path";
+    unit.fraction = 0.43;
+    unit.seconds_left = 85.0;
+    unit.host = "render01";
+}
+
 UnitOutcome outcome_of(int index) {
     switch (index % 23) {
         case 6:
@@ -96,6 +110,8 @@ UnitOutcome outcome_of(int index) {
             return UnitOutcome::Failed;
         case 13:
             return UnitOutcome::Interrupted;
+        case 16:
+            return UnitOutcome::Running;
         case 17:
             return UnitOutcome::RunningElsewhere;
         case 22:
@@ -121,6 +137,8 @@ BatchUnit make_unit(int index) {
         if (index % 11 == 5) unit.variant = "night & rain";
     }
     unit.image = unit.name + ".exr";
+    unit.preview = unit.name + ".png";
+    unit.camera = "main";
     unit.outcome = outcome_of(index);
     if (unit.outcome != UnitOutcome::UpToDate)
         unit.reason = index % 4 == 0 ? "the settings changed: spp" : "no image yet";
@@ -128,25 +146,30 @@ BatchUnit make_unit(int index) {
         fill_failed(unit, index);
     else if (has_image(unit.outcome))
         fill_statistics(unit, index);
+    else if (unit.outcome == UnitOutcome::Running)
+        fill_running(unit);
     return unit;
 }
 
-void write_sample(const fs::path& directory, int count, const std::vector<fs::path>& given) {
+void write_sample(const fs::path& directory, int count, const std::vector<fs::path>& given, bool is_running) {
     BatchReport report{.title = "renders <2026>",
                        .output_directory = fs::absolute(directory).string(),
                        .program = "etendue 0.5 \"sample\"",
                        .command = "etendue batch shots props -o renders --frames 1:400 --retries 2",
                        .started = "2026-11-22T08:12:03Z",
-                       .ended = "2026-11-22T09:47:51Z",
+                       .ended = is_running ? "" : "2026-11-22T09:47:51Z",
                        .seconds = 5748.0,
+                       .state = is_running ? BatchState::Running : BatchState::Ended,
+                       .written = is_running ? utc_time() : "2026-11-22T09:47:51Z",
+                       .seconds_left = is_running ? std::optional(4210.0) : std::nullopt,
                        .host = "render01",
                        .threads = 16};
     for (int i = 0; i < count; ++i) {
         report.units.push_back(make_unit(i));
-        const fs::path png = (directory / report.units.back().image).replace_extension(".png");
+        const fs::path png = directory / report.units.back().preview;
         if (has_image(report.units.back().outcome)) place_image(png, i, given);
     }
-    write_batch_report(report, directory);
+    BatchPageWriter(directory).write(report);
 }
 
 }  // namespace
@@ -155,10 +178,11 @@ void write_sample(const fs::path& directory, int count, const std::vector<fs::pa
 
 int main(int argc, char** argv) {
     if (argc < 3) {
-        std::fputs("usage: sample_batch DIRECTORY UNITS [PNG...]\n", stderr);
+        std::fputs("usage: sample_batch DIRECTORY UNITS [running] [PNG...]\n", stderr);
         return 2;
     }
     std::filesystem::create_directories(argv[1]);
-    etendue::write_sample(argv[1], std::atoi(argv[2]), {argv + 3, argv + argc});
+    const bool is_running = argc > 3 && std::string(argv[3]) == "running";
+    etendue::write_sample(argv[1], std::atoi(argv[2]), {argv + (is_running ? 4 : 3), argv + argc}, is_running);
     return 0;
 }

@@ -411,7 +411,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     camera = camera or scene.camera
     width, height = image_size(render)
     document: Document = {
-        "scene": "scene.glb", "resolution": [width, height], "spp": settings.samples, "seed": settings.seed,
+        "scene": "scene.glb", "size": [width, height], "spp": settings.samples, "seed": settings.seed,
         "integrator": integrator_settings(settings), "film": film_settings(render, settings),
         "color": {"working_space": REC709 if settings.working_space == "REC709" else "ACEScg", "output_space": REC709,
                   "view": "Un-tone-mapped"},

@@ -66,6 +66,13 @@ void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& opti
     for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
     std::optional<AnimationSampler> sampler;
     std::vector<const GltfAnimation*> shown;
+    const bool names_animations =
+        !settings.animations.empty() && settings.animations != std::vector<std::string>{std::string(kNoAnimation)};
+    if (names_animations && document.animations.empty())
+        problems.warning(settings.at("/animation"), "the file has no animation, and the scene stands still");
+    else if (names_animations && !settings.shown_time() && !options.every_animation)
+        problems.warning(settings.at("/animation"),
+                         "no animation plays without a moment: name one with --time-code, or several with --frames");
     if (settings.shown_time()) {
         shown = choose_animations(document, settings, problems);
         if (!shown.empty()) sampler.emplace(document, shown, accessors, problems);

@@ -4,6 +4,7 @@
 #include "loader/json_text.h"
 #include "loader/loader.h"
 #include "loader/settings/json_object.h"
+#include "scene/old_setting_names.h"
 
 #include <algorithm>
 
@@ -187,6 +188,13 @@ void read_table(JsonObject& object, std::string_view parent, RenderSettings& set
         } else if (objects.empty() || objects.back() != key.substr(0, slash)) {
             objects.push_back(key.substr(0, slash));
         }
+    }
+    for (const OldSettingName& old : kOldSettingNames) {
+        const std::string_view key = old.pointer.substr(1);
+        if (!parent.empty() || object.member(key) == nullptr) continue;
+        object.setting(*find_setting(old.now), key, settings);
+        object.problems().note(object.at(key),
+                               fmt::format("'{}' is called '{}' now, and is taken for that", key, old.now.substr(1)));
     }
     std::ranges::sort(objects);
     objects.erase(std::unique(objects.begin(), objects.end()), objects.end());

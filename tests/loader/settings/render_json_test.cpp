@@ -52,7 +52,7 @@ TEST(RenderJson, EverySettingIsRead) {
     const Parsed parsed = parse(R"({
         "scene": "x.glb", "integrator": {"type": "direct", "max_depth": 7, "min_depth": 2, "roulette_depth": 6, "light_samples": 5,
                        "heuristic": "power", "strategy": [2, 3], "weighted": false, "connections": "cache:4"},
-        "sampler": "random", "spp": 9, "seed": 4294967295, "time": 1.5, "error": 0.25, "adaptive": false, "min_spp": 70, "resolution": [30, 20], "crop": [1, 2, 3, 4],
+        "sampler": "random", "spp": 9, "seed": 4294967295, "time": 1.5, "error": 0.25, "adaptive": false, "min_spp": 70, "size": [30, 20], "crop": [1, 2, 3, 4],
         "light_units": "radiometric", "camera": "c", "lens_radius": 0.5, "focus_distance": 4,
         "film": {"filter": "mitchell", "filter_radius": 2.5},
         "environment": {"image": "i.exr", "color": [1, 2, 3], "scale": 4, "rotation": 5, "visible_to_camera": false},
@@ -112,7 +112,7 @@ TEST(RenderJson, UnknownKeysSuggestTheNearest) {
 }
 
 TEST(RenderJson, ErrorsStateWhatIsExpected) {
-    const Parsed parsed = parse(R"({"spp": 0, "time": "x", "resolution": [3], "camera":
+    const Parsed parsed = parse(R"({"spp": 0, "time": "x", "size": [3], "camera":
         {"position": [0, 0, 1], "look_at": [0, 0, 0], "yfov": 4}, "sampler": "sobel", "focus_distance": 0})");
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "integer in [1, 16777216], but is 0", "/spp"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "a number >= 0, but is a string", "/time"));
@@ -298,15 +298,15 @@ TEST(RenderJson, LensesAsPhotographersSayThem) {
         EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
         return loaded.scene.cameras.at(0);
     };
-    const CameraDesc wide = camera(load_lens(R"({"resolution": [300, 200], "focal_length": 50, "f_stop": 2})"));
+    const CameraDesc wide = camera(load_lens(R"({"size": [300, 200], "focal_length": 50, "f_stop": 2})"));
     EXPECT_NEAR(wide.yfov, 2.0f * std::atan(12.0f / 50.0f), 1e-6f);
     EXPECT_NEAR(wide.lens_radius, 0.0125f, 1e-8f);
     EXPECT_NEAR(wide.focal_length, 50.0f, 1e-4f);
-    const CameraDesc tall = camera(load_lens(R"({"resolution": [200, 300], "focal_length": 50, "sensor_width": 24})"));
+    const CameraDesc tall = camera(load_lens(R"({"size": [200, 300], "focal_length": 50, "sensor_width": 24})"));
     EXPECT_NEAR(tall.yfov, 2.0f * std::atan(12.0f / 50.0f), 1e-6f);
     EXPECT_EQ(tall.lens_radius, 0.0f);
     // The focal length of the camera's own view, whatever the image is.
-    const CameraDesc own = camera(load_lens(R"({"resolution": [90, 100], "f_stop": 4})", 1.5));
+    const CameraDesc own = camera(load_lens(R"({"size": [90, 100], "f_stop": 4})", 1.5));
     EXPECT_EQ(own.yfov, 0.5f);
     const float focal_length = 12.0f / std::tan(0.25f);
     EXPECT_NEAR(own.focal_length, focal_length, 1e-4f);
@@ -316,7 +316,7 @@ TEST(RenderJson, LensesAsPhotographersSayThem) {
 
 // What is said of one camera goes before what is said of all, which it keeps the rest of.
 TEST(RenderJson, ChangesCamerasByName) {
-    const LoadedScene loaded = load_lens(R"({"resolution": [300, 200], "lens_radius": 0.5, "focus_distance": 9,
+    const LoadedScene loaded = load_lens(R"({"size": [300, 200], "lens_radius": 0.5, "focus_distance": 9,
         "sensor_width": 24, "cameras": {"main": {"f_stop": 2, "focal_length": 50, "shift": [0.25, -0.5], "clip": true,
         "clip_end": 7, "blades": 5, "blade_rotation": 0.5, "aperture_ratio": 2}}})");
     EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
@@ -342,7 +342,7 @@ TEST(RenderJson, ChangesCamerasByName) {
 
 // Of a lens of 8 mm, an equisolid circle of 180 degrees is 4 · 8 mm · sin(45°) across.
 TEST(RenderJson, MakesPanoramasOfCameras) {
-    const LoadedScene loaded = load_lens(R"({"resolution": [300, 200], "cameras": {"main": {"type": "fisheye",
+    const LoadedScene loaded = load_lens(R"({"size": [300, 200], "cameras": {"main": {"type": "fisheye",
         "mapping": "equisolid", "focal_length": 8, "sensor_width": 36}}})");
     EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
     const CameraDesc& camera = loaded.scene.cameras.at(0);
@@ -487,9 +487,9 @@ TEST(RenderJson, EnvironmentImageIsAnInput) {
 }
 
 TEST(RenderJson, CropsGoNoFartherBeyondTheImageThanThatIsLarge) {
-    EXPECT_TRUE(has_problem(load_with(R"({"resolution": [10, 10], "crop": [0, 0, 21, 10]})").problems, Severity::Error,
+    EXPECT_TRUE(has_problem(load_with(R"({"size": [10, 10], "crop": [0, 0, 21, 10]})").problems, Severity::Error,
                             "crop window"));
-    EXPECT_FALSE(load_with(R"({"resolution": [10, 10], "crop": [-10, -1, 20, 10]})").problems.has_errors());
+    EXPECT_FALSE(load_with(R"({"size": [10, 10], "crop": [-10, -1, 20, 10]})").problems.has_errors());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ import math
 from . import lobes
 
 # Keys of render.json that do not change what is rendered, or that the comparison sets itself.
-SET_BY_COMPARISON = {"spp", "seed", "resolution", "film", "color", "aovs", "aov_layout", "texture_memory", "brightest",
+SET_BY_COMPARISON = {"spp", "seed", "size", "film", "color", "aovs", "aov_layout", "texture_memory", "brightest",
                      "sampler", "scene"}
 CARRIED = {"integrator", "camera", "environment", "materials", "lights"}
 EXTENSIONS = {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_transmission",

@@ -69,9 +69,9 @@ def make_small(settings, size):
     """No large images and no long paths, which anybody may ask for; numbers that are not allowed stay."""
     if is_in(settings.get("spp", 1), 1 << 24):
         settings["spp"] = 1
-    resolution = settings.get("resolution", list(size))
+    resolution = settings.get("size", list(size))
     if isinstance(resolution, list) and len(resolution) == 2 and all(is_in(one, 1 << 16) for one in resolution):
-        settings["resolution"] = list(size)
+        settings["size"] = list(size)
     integrator = settings.get("integrator")
     for key in ("max_depth", "roulette_depth"):
         if isinstance(integrator, dict) and is_in(integrator.get(key), (1 << 31) - 1):

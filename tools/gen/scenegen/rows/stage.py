@@ -80,7 +80,7 @@ class Stage:
     def finish(self, **settings):
         """The scene, with its render.json; `settings` are further members of that, None to leave one out."""
         members = {
-            "integrator": {"max_depth": 24}, "spp": 256, "resolution": [1024, 512],
+            "integrator": {"max_depth": 24}, "spp": 256, "size": [1024, 512],
             "environment": {"color": SKY_RADIANCE}, "color": {"exposure": 0.7},
             "materials": self.overrides, **settings}
         members = {key: value for key, value in members.items() if value is not None}

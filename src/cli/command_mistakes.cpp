@@ -1,0 +1,111 @@
+#include "cli/command_mistakes.h"
+
+#include "cli/command_help.h"
+#include "core/error.h"
+#include "core/shown_text.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Returns the command that was given, or the program.
+const CLI::App& given_command(const CLI::App& app) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    return commands.empty() ? app : *commands.front();
+}
+
+/// Returns the option of the command that `name` names; null if there is none.
+const OptionHelp* find_option(const CommandHelp& command, std::string_view name) {
+    for (const auto* options : {&command.options, &command.arguments})
+        for (const OptionHelp& option : *options)
+            if (std::ranges::find(option.names, name) != option.names.end()) return &option;
+    return nullptr;
+}
+
+std::string where_to_look(const CommandHelp& command) {
+    return command.commands.empty() ? fmt::format("'etendue help {}' lists all", command.name)
+                                    : std::string("'etendue help' lists all");
+}
+
+/// Says that the command knows no option of that name, with the nearest that it knows.
+std::string unknown_option(const CommandHelp& command, const std::string& word) {
+    const std::string name = word.substr(0, word.find('='));
+    std::vector<std::string_view> known;
+    for (const OptionHelp& option : command.options)
+        known.insert(known.end(), option.names.begin(), option.names.end());
+    const std::string nearest = nearest_name(name, known);
+    const std::string hint = nearest.empty() ? where_to_look(command) : fmt::format("did you mean '{}'?", nearest);
+    const std::string of = command.commands.empty() ? fmt::format(" of '{}'", command.name) : "";
+    return fmt::format("there is no option '{}'{}; {}", shown(name), of, hint);
+}
+
+std::string unexpected(const CommandHelp& command, const std::vector<std::string>& words) {
+    const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('-'); });
+    if (option != words.end()) return unknown_option(command, *option);
+    return fmt::format(
+        "'{}' is one word too many for '{}', which takes {}; {}", shown(words.front()), command.name,
+        command.arguments.empty() ? std::string("none") : "'" + command.arguments.front().names.front() + "'",
+        where_to_look(command));
+}
+
+/// Says which option or argument is missing, and what it is for.
+std::string missing(const CommandHelp& command, const std::string& message) {
+    const std::string name = message.substr(0, message.find(' '));
+    const OptionHelp* const option = find_option(command, name);
+    if (option == nullptr) return message + "; " + where_to_look(command);
+    return fmt::format("{} is missing: {}; 'etendue help {}' tells more", name, first_clause(option->description),
+                       command.name);
+}
+
+/// Returns what follows `before` in `message`; empty if that is not in it.
+std::string after(const std::string& message, std::string_view before) {
+    const std::size_t at = message.find(before);
+    return at == std::string::npos ? "" : message.substr(at + before.size());
+}
+
+/// Says in words of its own that a file is not there.
+std::string invalid(const std::string& message) {
+    for (const auto& [before, what] :
+         {std::pair("File does not exist: ", "file"), std::pair("Directory does not exist: ", "directory")}) {
+        const std::string path = after(message, before);
+        if (path.empty()) continue;
+        const std::string name = message.substr(0, message.find(':'));
+        const bool is_glob = path.find_first_of("*?[") != std::string::npos;
+        return fmt::format("{}: there is no {} '{}'{}", name, what, shown(path),
+                           is_glob ? ": the shell found nothing that the pattern matches" : "");
+    }
+    return message;
+}
+
+}  // namespace
+
+std::string mistake_in_words(const CLI::App& app, const CLI::ParseError& error) {
+    const CommandHelp command = describe_command(given_command(app));
+    const std::string message = error.what();
+    const std::vector<std::string> words = app.remaining(true);
+    // What was misspelt is not missing.
+    const auto misspelt = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
+    if (misspelt != words.end()) return unknown_option(command, *misspelt);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !words.empty()) return unexpected(command, words);
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        if (command.commands.empty()) return missing(command, message);
+        return "a command is missing; " + where_to_look(command);
+    }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        const std::string name = message.substr(0, message.find(':'));
+        const OptionHelp* const option = find_option(command, name);
+        if (option != nullptr && message.find(" missing") != std::string::npos)
+            return fmt::format("{} needs a value behind it, {}: {}", name, option->terms,
+                               first_clause(option->description));
+    }
+    return invalid(message);
+}
+
+}  // namespace etendue

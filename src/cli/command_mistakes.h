@@ -1,0 +1,17 @@
+// What is said of a command line that cannot be followed.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace etendue {
+
+/// Says what is wrong with a command line, where, and what to do about it, after "error: ". `app` has parsed as far as
+/// it could.
+[[nodiscard]] std::string mistake_in_words(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace etendue
