@@ -28,10 +28,15 @@ Rgb light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ver
     if (eye.edges < sample.lengths.min_depth) return {};
     const Rgb throughput = eye.throughput * sample.wavelength_weight(eye.is_dispersed);
     if (vertex.kind == Vertex::Kind::Environment) {
-        if (!world.traits().has_environment || (is_seen && !world.traits().environment_visible_to_camera)) return {};
-        StrategySums sums;
-        if (!is_seen) sums = sums_at_environment(sample.mis, eye.from, direction, eye.departing);
-        return throughput * world.environment().radiance(direction) * weight(sums);
+        Rgb met;
+        for (const std::uint32_t light : world.environment().met(is_seen)) {
+            const Rgb radiance = world.environment().radiance(light, direction);
+            if (is_black(radiance)) continue;
+            StrategySums sums;
+            if (!is_seen) sums = sums_from_afar(sample.mis, eye.from, light, direction, eye.departing);
+            met += radiance * weight(sums);
+        }
+        return throughput * met;
     }
     const SurfacePoint& point = vertex.surface;
     Rgb light;
