@@ -25,7 +25,7 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
 /// Samples light at `point` as `sample_light` does, but of an environment only what
-/// `compensated_environment_pdf_solid_angle` says: the samples of the BSDF, combined with these by multiple importance
+/// `compensated_pdf_solid_angle_from_afar` says: the samples of the BSDF, combined with these by multiple importance
 /// sampling, find the rest (light/environment_light.h).
 [[nodiscard]] LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
 /// Samples an environment as `sample_light_compensated` does, as many times at once as there are `samples`.
