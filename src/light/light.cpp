@@ -78,21 +78,32 @@ std::optional<Vec3f> light_point(const Light& light) {
     return std::visit([](const auto& l) { return l.point(); }, light);
 }
 
-Rgb environment_radiance(const Light& light, const Vec3f& direction) {
-    if (const auto* constant = std::get_if<ConstantEnvironment>(&light)) return constant->radiance(direction);
-    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->radiance(direction);
-    return {};
+Rgb radiance_from_afar(const Light& light, const Vec3f& direction) {
+    return std::visit(
+        [&](const auto& l) {
+            if constexpr (requires { l.radiance(direction); })
+                return l.radiance(direction);
+            else
+                return Rgb();
+        },
+        light);
 }
 
-float environment_pdf_solid_angle(const Light& light, const Vec3f& direction) {
-    if (const auto* constant = std::get_if<ConstantEnvironment>(&light)) return constant->pdf_solid_angle(direction);
-    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->pdf_solid_angle(direction);
-    return 0.0f;
+float pdf_solid_angle_from_afar(const Light& light, const Vec3f& direction) {
+    return std::visit(
+        [&](const auto& l) {
+            if constexpr (requires { l.pdf_solid_angle(direction); })
+                return l.pdf_solid_angle(direction);
+            else
+                return 0.0f;
+        },
+        light);
 }
 
-float compensated_environment_pdf_solid_angle(const Light& light, const Vec3f& direction) {
-    const auto* image = std::get_if<ImageEnvironment>(&light);
-    return image != nullptr ? image->compensated_pdf_solid_angle(direction) : 0.0f;
+float compensated_pdf_solid_angle_from_afar(const Light& light, const Vec3f& direction) {
+    if (std::holds_alternative<ConstantEnvironment>(light)) return 0.0f;
+    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->compensated_pdf_solid_angle(direction);
+    return pdf_solid_angle_from_afar(light, direction);
 }
 
 void look_at_environment(const Light& light, std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) {

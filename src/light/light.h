@@ -25,7 +25,7 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
 /// Samples light at `point` as `sample_light` does, but of an environment only what
-/// `compensated_environment_pdf_solid_angle` says: the samples of the BSDF, combined with these by multiple importance
+/// `compensated_pdf_solid_angle_from_afar` says: the samples of the BSDF, combined with these by multiple importance
 /// sampling, find the rest (light/environment_light.h).
 [[nodiscard]] LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
 /// Samples an environment as `sample_light_compensated` does, as many times at once as there are `samples`.
@@ -56,13 +56,15 @@ void sample_environment_compensated(const Light& light, std::span<const Vec2f> u
 /// Returns where a light is that shines from a point; none for others.
 [[nodiscard]] std::optional<Vec3f> light_point(const Light& light);
 
-/// Radiance from infinity along `-direction`; zero for lights that are no environment.
-[[nodiscard]] Rgb environment_radiance(const Light& light, const Vec3f& direction);
-/// Density with which `sample_light` picks `direction`; zero for lights that are no environment.
-[[nodiscard]] float environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
-/// Returns the density with which `sample_light_compensated` picks `direction`, 1/sr; zero for lights that are no
-/// environment.
-[[nodiscard]] float compensated_environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
+/// Returns the radiance that a ray along `direction` meets infinitely far away; zero for lights that are no environment
+/// and no sun.
+[[nodiscard]] Rgb radiance_from_afar(const Light& light, const Vec3f& direction);
+/// Returns the density with which `sample_light` picks `direction`, 1/sr; zero for lights that no ray meets infinitely
+/// far away.
+[[nodiscard]] float pdf_solid_angle_from_afar(const Light& light, const Vec3f& direction);
+/// Returns the density with which `sample_light_compensated` picks `direction`, 1/sr; zero for lights that no ray meets
+/// infinitely far away.
+[[nodiscard]] float compensated_pdf_solid_angle_from_afar(const Light& light, const Vec3f& direction);
 
 /// Fills `seen` with the radiance and the density of `sample_light_compensated` along as many `directions` at once.
 void look_at_environment(const Light& light, std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen);

@@ -13,8 +13,18 @@ SunLight::SunLight(const Vec3f& direction, const Rgb& irradiance, float angle)
     : direction_(direction),
       // A disk that single precision closes still has directions.
       cos_max_(std::min(std::cos(0.5f * angle), kOneMinusEpsilon)),
+      pdf_(cone_pdf_solid_angle({0.0f, 0.0f, 1.0f}, cos_max_)),
       // The mean cosine to the middle, over a cap of the sphere, is (1 + cos_max) / 2.
-      perpendicular_(irradiance * (2.0f / (1.0f + cos_max_))) {}
+      radiance_(irradiance * (2.0f / (1.0f + cos_max_) * pdf_)) {}
+
+Rgb SunLight::radiance(const Vec3f& direction) const {
+    return pdf_solid_angle(direction) > 0.0f ? radiance_ : Rgb();
+}
+
+float SunLight::pdf_solid_angle(const Vec3f& direction) const {
+    // By the chord: in single precision, the cosine of a small angle is that of others, too.
+    return length_squared(direction + direction_) <= 2.0f * (1.0f - cos_max_) ? pdf_ : 0.0f;
+}
 
 Vec3f SunLight::sample_direction(Vec2f u) const {
     return normalize(Frame::from_normal(direction_).to_world(square_to_cone(u, cos_max_)));
@@ -23,14 +33,15 @@ Vec3f SunLight::sample_direction(Vec2f u) const {
 LightSample SunLight::sample(const Vec3f&, Vec2f u) const {
     LightSample sample;
     sample.wi = -sample_direction(u);
-    sample.radiance = perpendicular_;
-    sample.is_delta = true;
+    sample.radiance = radiance_;
+    sample.pdf_solid_angle = pdf_;
     return sample;
 }
 
 EmissionSample SunLight::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
     EmissionSample sample = sample_emission_from_afar(sample_direction(u.direction), scene, u.position);
-    sample.radiance = perpendicular_;
+    sample.radiance = radiance_;
+    sample.pdf_direction_solid_angle = pdf_;
     return sample;
 }
 
@@ -39,7 +50,7 @@ float SunLight::emission_pdf(const Vec3f&, float, const SceneSphere& scene) cons
 }
 
 float SunLight::power(float scene_radius) const {
-    return kPi * scene_radius * scene_radius * average(perpendicular_);
+    return kPi * scene_radius * scene_radius * average(radiance_) / pdf_;
 }
 
 }  // namespace etendue

@@ -1,8 +1,6 @@
 // A sun: parallel light from a disk of directions, infinitely far away.
 //
-// Each sample is of one direction within the disk, uniformly, and is a delta's: a ray that leaves the scene meets
-// nothing there, as with the lights of glTF. All strategies draw that direction with the same density, which therefore
-// is in none of theirs: the light that it brings takes the place of radiance over density.
+// Rays that leave the scene within the disk meet its radiance, and light samples pick directions there uniformly.
 #pragma once
 
 #include "light/emission_sample.h"
@@ -20,13 +18,17 @@ class SunLight {
     /// for every `angle`, radians, (0, pi).
     SunLight(const Vec3f& direction, const Rgb& irradiance, float angle);
 
+    /// Returns the radiance that a ray along `direction` meets, zero beside the disk.
+    [[nodiscard]] Rgb radiance(const Vec3f& direction) const;
+    /// Returns the density with which `sample` and `sample_emission` pick `direction`, 1/sr, towards the sun.
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] static std::optional<Vec3f> point() { return std::nullopt; }
     [[nodiscard]] static constexpr std::size_t bytes() { return 0; }
-    [[nodiscard]] static constexpr bool is_delta() { return true; }
+    [[nodiscard]] static constexpr bool is_delta() { return false; }
     [[nodiscard]] static constexpr bool is_at_infinity() { return true; }
     [[nodiscard]] static constexpr bool is_environment() { return false; }
 
@@ -35,8 +37,9 @@ class SunLight {
     [[nodiscard]] Vec3f sample_direction(Vec2f u) const;
 
     Vec3f direction_;
-    float cos_max_;      ///< cosine of half the angle
-    Rgb perpendicular_;  ///< W/m² across each direction, were all light from there
+    float cos_max_;  ///< cosine of half the angle
+    float pdf_;      ///< 1/sr, of each direction within the disk
+    Rgb radiance_;   ///< W/(m² sr)
 };
 
 }  // namespace etendue

@@ -3,6 +3,7 @@
 #include "output/cryptomatte.h"
 
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,12 +19,19 @@ std::vector<float> resolve_mean(const Film& film) {
     return rgb;
 }
 
+std::vector<float> resolve_values(const Film& film, const AovOutput& output) {
+    std::vector<float> values = film.resolve_values(output.first, output.channels.size());
+    if (output.background != 0.0f)
+        for (float& value : values) value += output.background;
+    return values;
+}
+
 std::vector<float> resolve(const Film& film, const AovOutput& output) {
     switch (output.kind) {
         case AovKind::Layer:
             return film.resolve_light(output.first);
         case AovKind::Values:
-            return film.resolve_values(output.first, output.channels.size());
+            return resolve_values(film, output);
         case AovKind::Nearest:
             return film.resolve_nearest(output.first, output.channels.size(), output.background);
         case AovKind::Samples:
@@ -72,6 +80,8 @@ OutputLayer resolve_layer(const Film& film, const AovOutput& output) {
     if (output.kind == AovKind::Matte) {
         layer.is_matte = true;
         layer.attributes = matte_attributes(output.name, output.manifest);
+    } else if (!output.manifest.empty()) {
+        layer.attributes.push_back({"etendue:names/" + output.name, output.manifest});
     }
     layer.pixels.width = film.window().width();
     layer.pixels.height = film.window().height();

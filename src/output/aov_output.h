@@ -28,9 +28,9 @@ struct AovOutput {
     std::string channels;  ///< a letter each
     AovKind kind = AovKind::Layer;
     std::size_t first = 0;    ///< index of the light layer or matte, or of the first number
-    float background = 0.0f;  ///< where nothing was hit, of the nearest
+    float background = 0.0f;  ///< where nothing was hit; sums of averaged numbers begin there
     bool is_float = false;    ///< written as 32-bit floats; half floats are enough otherwise
-    std::string manifest{};   ///< of a matte, the names of its ids; empty if there are too many
+    std::string manifest{};   ///< JSON: the names of ids, by them of a matte; empty if there are too many or none
 };
 
 /// The pixels of `output`, from a film that has them.

@@ -29,6 +29,10 @@ std::string matte_manifest(std::span<const std::string> names) {
     return manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+std::string id_names(std::span<const std::string> names) {
+    return nlohmann::json(names).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::vector<MatteCollision> matte_collisions(std::span<const std::string> names) {
     std::map<std::uint32_t, std::string_view> name_of;
     std::vector<MatteCollision> collisions;

@@ -23,6 +23,9 @@ namespace etendue {
 /// JSON: the ids of names, eight hexadecimal digits each, every name once and in the order of the alphabet.
 [[nodiscard]] std::string matte_manifest(std::span<const std::string> names);
 
+/// Returns names as a JSON list, the first of which is that of the id 1 where ids are numbers.
+[[nodiscard]] std::string id_names(std::span<const std::string> names);
+
 /// Names of a list that have the same id.
 struct MatteCollision {
     std::string first;

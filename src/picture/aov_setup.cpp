@@ -161,6 +161,7 @@ class Planner {
         finish_expressions();
         finish_fireflies();
         set_.frames_of_shutter = static_cast<float>((settings.shutter.close - settings.shutter.open) * settings.fps);
+        set_.mist = settings.mist;
         plan_.set = std::make_shared<AovSet>(std::move(set_));
         return std::move(plan_);
     }
@@ -263,6 +264,8 @@ class Planner {
                          count,
                          entry.background,
                          entry.is_float};
+        if (entry.value == FirstHitValue::ObjectId) output.manifest = names_of_ids(aov, object_names(scene_));
+        if (entry.value == FirstHitValue::MaterialId) output.manifest = names_of_ids(aov, material_names(scene_));
         if (!add_output(aov, std::move(output), entry.name)) return;
         count += entry.channels.size();
         (entry.is_nearest ? set_.nearest : set_.values).push_back(entry.value);
@@ -287,6 +290,14 @@ class Planner {
         MatteIds ids{.by_material = matte.by_material};
         for (const std::string& name : names) ids.ids.push_back(matte_id(name));
         set_.mattes.push_back(std::move(ids));
+    }
+
+    /// Returns the names of the ids from 1 on, as JSON; empty if it would be too large.
+    std::string names_of_ids(const AovDesc& aov, const std::vector<std::string>& names) {
+        std::string list = id_names(names);
+        if (list.size() <= kLargestManifest) return list;
+        problems_.note(aov.location, fmt::format("the names of ids, {} bytes, are left out of the file", list.size()));
+        return {};
     }
 
     /// Empty if it would be too large. Notes names that cannot be told apart.

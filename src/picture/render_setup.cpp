@@ -60,8 +60,9 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     if (settings.clamp_indirect > 0.0f) options.clamp_indirect = settings.clamp_indirect;
     options.brightest = static_cast<std::size_t>(settings.brightest);
     // Samples of a pass that merges all have one index, so that no pixel has more of them.
-    options.adaptive =
-        settings.adaptive && settings.relative_error > 0.0 && !find_integrator(settings.integrator.type)->merges;
+    const IntegratorEntry* const integrator = find_integrator(settings.integrator.type);
+    const bool merges = integrator != nullptr && integrator->merges;
+    options.adaptive = settings.adaptive && settings.relative_error > 0.0 && !merges;
     options.min_spp = static_cast<std::uint32_t>(settings.min_spp);
     return options;
 }

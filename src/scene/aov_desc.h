@@ -11,6 +11,16 @@
 
 namespace etendue {
 
+/// Says how mist grows with the distance between its start and its end.
+enum class MistFalloff { Quadratic, Linear, InverseQuadratic };
+
+/// Holds where the mist of the layer `mist` lies, metres from the camera.
+struct MistSettings {
+    float start = 5.0f;   ///< >= 0
+    float depth = 25.0f;  ///< > 0, from the start to where all is mist
+    MistFalloff falloff = MistFalloff::Quadratic;
+};
+
 /// How an image file holds its layers.
 enum class AovLayout {
     Layers,  ///< as channels of one image: NAME.R

@@ -146,6 +146,7 @@ struct RenderSettings {
     FilmSettings film;
     std::vector<AovDesc> aovs;  ///< layers to write besides the image
     AovLayout aov_layout = AovLayout::Layers;
+    MistSettings mist;
     ColorSettings color;
     MetadataSettings metadata;
     SourceLocation location;                     ///< of render.json

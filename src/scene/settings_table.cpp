@@ -35,6 +35,11 @@ constexpr std::array<std::pair<std::string_view, PixelFilterType>, 4> kFilterNam
     {"gaussian", PixelFilterType::Gaussian},
     {"mitchell", PixelFilterType::Mitchell},
 }};
+constexpr std::array<std::pair<std::string_view, MistFalloff>, 3> kFalloffNames{{
+    {"quadratic", MistFalloff::Quadratic},
+    {"linear", MistFalloff::Linear},
+    {"inverse-quadratic", MistFalloff::InverseQuadratic},
+}};
 
 template <const auto& names>
 constexpr auto kNamesOf = [] {
@@ -589,6 +594,27 @@ constexpr std::array kRows{
                     "own (`files`)",
             .page = "aovs.md",
             .place = named_at<kAovLayoutNames>([](auto& s) -> auto& { return s.aov_layout; })},
+    Setting{.pointer = "/mist/start",
+            .type = RealNumber{{.min = 0.0}, true},
+            .decides = Decides::Sums,
+            .unit = "metres",
+            .help = "Distance from the camera at which the layer `mist` begins",
+            .page = "aovs.md",
+            .place = at([](auto& s) -> auto& { return s.mist.start; })},
+    Setting{.pointer = "/mist/depth",
+            .type = RealNumber{{.min = 0.0, .open_min = true}, true},
+            .decides = Decides::Sums,
+            .unit = "metres",
+            .help = "Distance from there to where all is mist",
+            .page = "aovs.md",
+            .place = at([](auto& s) -> auto& { return s.mist.depth; })},
+    Setting{.pointer = "/mist/falloff",
+            .type = kChoiceOf<kFalloffNames>,
+            .decides = Decides::Sums,
+            .help = "How mist grows in between: with the square of the distance from its start, evenly, or with the "
+                    "square root",
+            .page = "aovs.md",
+            .place = named_at<kFalloffNames>([](auto& s) -> auto& { return s.mist.falloff; })},
     Setting{.pointer = "/color/exposure",
             .option = "--exposure",
             .type = RealNumber{{.min = -64.0, .max = 64.0}, true},

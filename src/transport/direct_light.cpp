@@ -7,13 +7,17 @@ namespace etendue {
 
 namespace {
 
-Rgb met_environment(const World& world, const EyePath& path, const Vertex& vertex) {
-    if (!world.traits().has_environment || (path.is_seen() && !world.traits().environment_visible_to_camera)) return {};
+Rgb met_from_afar(const World& world, const EyePath& path, const Vertex& vertex) {
     const Vec3f direction = -vertex.wo;
-    const float light_pdf = world.lights().probability(path.last.receiver, world.environment().light()) *
-                            world.environment().pdf_solid_angle(direction);
-    return world.environment().radiance(direction) *
-           met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
+    Rgb met;
+    for (const std::uint32_t light : world.environment().met(path.is_seen())) {
+        const Rgb radiance = world.environment().radiance(light, direction);
+        if (is_black(radiance)) continue;
+        met += radiance * met_light_weight(path.last.pdf_solid_angle,
+                                           chosen_pdf_from_afar(world, path.last.receiver, light, direction),
+                                           path.last.samples);
+    }
+    return met;
 }
 
 Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) {
@@ -33,7 +37,7 @@ bool is_found_elsewhere(const EyePath& path, const Vertex& vertex) {
 
 Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex) {
     Rgb light;
-    if (vertex.kind == Vertex::Kind::Environment) light += met_environment(world, path, vertex);
+    if (vertex.kind == Vertex::Kind::Environment) light += met_from_afar(world, path, vertex);
     if (vertex.surface.material != nullptr && vertex.surface.material->emits && !is_found_elsewhere(path, vertex))
         light += met_emission(world, path, vertex);
     // An unlit surface lights nothing.

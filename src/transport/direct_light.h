@@ -34,13 +34,12 @@ inline void share_estimate(LightTree::Choice& choice, std::uint32_t samples) {
     choice.probability *= static_cast<float>(samples);
 }
 
-/// Returns the density, 1/sr, with which a light that is chosen for `receiver` is the environment and is sampled along
-/// `direction`; 0 if no lights are sampled.
-[[nodiscard]] inline float chosen_environment_pdf(const World& world, const LightReceiver& receiver,
-                                                  const Vec3f& direction) {
+/// Returns the density, 1/sr, with which the light that is chosen for `receiver` is this one, infinitely far away, and
+/// is sampled along `direction`; 0 if no lights are sampled.
+[[nodiscard]] inline float chosen_pdf_from_afar(const World& world, const LightReceiver& receiver, std::uint32_t light,
+                                                const Vec3f& direction) {
     if (!world.traits().has_sampled_lights) return 0.0f;
-    return world.lights().probability(receiver, world.environment().light()) *
-           world.environment().pdf_solid_angle(direction);
+    return world.lights().probability(receiver, light) * world.environment().pdf_solid_angle(light, direction);
 }
 
 /// Returns the light, on its way to the eye, that the path's ray has met at `vertex` by chance.

@@ -134,7 +134,7 @@ struct DepartingDensities {
                                           mis.world.lights().gain(emission.light, sample.triangle, position));
     auto for_emission = static_cast<double>(emission.probability);
     if (emission.light == mis.world.environment().light()) {
-        for_vertex *= static_cast<double>(mis.world.environment().pdf_solid_angle(-sample.direction));
+        for_vertex *= static_cast<double>(mis.world.environment().pdf_solid_angle(emission.light, -sample.direction));
         for_emission *= static_cast<double>(sample.pdf_direction_solid_angle);
     }
     arrived.a *= mis.raised(for_vertex / for_emission);

@@ -16,10 +16,13 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
     if (eye.edges < sample.lengths.min_depth) return;
     const Rgb throughput = eye.throughput * sample.wavelength_weight(eye.is_dispersed);
     if (vertex.kind == Vertex::Kind::Environment) {
-        if (!world.traits().has_environment || (is_seen && !world.traits().environment_visible_to_camera)) return;
-        StrategySums sums;
-        if (!is_seen) sums = sums_at_environment(sample.mis, eye.from, direction, eye.departing);
-        add({throughput * world.environment().radiance(direction), sums});
+        for (const std::uint32_t light : world.environment().met(is_seen)) {
+            const Rgb radiance = world.environment().radiance(light, direction);
+            if (is_black(radiance)) continue;
+            StrategySums sums;
+            if (!is_seen) sums = sums_from_afar(sample.mis, eye.from, light, direction, eye.departing);
+            add({throughput * radiance, sums});
+        }
         return;
     }
     const SurfacePoint& point = vertex.surface;

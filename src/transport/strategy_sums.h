@@ -66,17 +66,16 @@ struct LightPointPdfs {
                               arrived.a};
 }
 
-/// Returns `sums_at_light` for the environment. The vertex is a direction: its density is per solid angle on both
-/// sides, and so is that of the light.
-[[nodiscard]] inline StrategySums sums_at_environment(const MisContext& mis, const Vec3f& from, const Vec3f& direction,
-                                                      DepartingDensities departing) {
+/// Returns `sums_at_light` for a light that the ray has met infinitely far away. The vertex is a direction: its density
+/// is per solid angle on both sides, and so is that of the light.
+[[nodiscard]] inline StrategySums sums_from_afar(const MisContext& mis, const Vec3f& from, std::uint32_t light,
+                                                 const Vec3f& direction, DepartingDensities departing) {
     const World& world = mis.world;
     departing.is_from_infinity = false;
-    return sums_at_light(mis, from, world.environment().light(),
-                         {.sampled = world.environment().pdf_solid_angle(direction),
-                          .emitted = world.environment().emission_pdf_solid_angle(direction)},
-                         world.emitters().pdf(world.environment().light(), -direction, 1.0f),
-                         departing.arrive(mis.raised, 1.0, 1.0));
+    return sums_at_light(mis, from, light,
+                         {.sampled = world.environment().pdf_solid_angle(light, direction),
+                          .emitted = world.environment().emission_pdf_solid_angle(light, direction)},
+                         world.emitters().pdf(light, -direction, 1.0f), departing.arrive(mis.raised, 1.0, 1.0));
 }
 
 /// Returns the sums of s = 1: `chosen` was sampled for the last vertex of an eye subpath, which scatters it by `value`.
@@ -98,8 +97,8 @@ template <typename AnyVertex>
                                           world.lights().gain(chosen.light, light.triangle, vertex.position));
     float pdf_solid_angle = light.pdf_solid_angle;
     if (chosen.light == world.environment().light()) {
-        for_emission *= static_cast<double>(world.environment().emission_pdf_solid_angle(light.wi));
-        pdf_solid_angle = chosen.expected_samples * world.environment().pdf_solid_angle(light.wi);
+        for_emission *= static_cast<double>(world.environment().emission_pdf_solid_angle(chosen.light, light.wi));
+        pdf_solid_angle = chosen.expected_samples * world.environment().pdf_solid_angle(chosen.light, light.wi);
         for_vertex = static_cast<double>(pdf_solid_angle);
         if (!(pdf_solid_angle > 0.0f)) return {.fewer_from_light = std::numeric_limits<double>::infinity()};
     }

@@ -27,14 +27,16 @@ Rgb branch_direct_light(const World& world, const DeltaBranch& branch, const Ver
         if (!is_black(light.radiance))
             found += contribution(
                 light, light_sample_scale(
-                           chosen, is_environment ? world.environment().emission_pdf_solid_angle(light.wi) : 0.0f));
+                           chosen, is_environment ? world.environment().emission_pdf_solid_angle(chosen.light, light.wi)
+                                                  : 0.0f));
     }
     if (!world.traits().has_environment) return found;
     const LightSample light =
         world.environment().sample_all(vertex.position, numbers.pair(kBranchEnvironmentDirection));
     if (is_black(light.radiance)) return found;
-    const float chosen_pdf = chosen_environment_pdf(world, vertex.position, light.wi);
-    return found + contribution(light, light_sample_scale({light, 1.0f, world.environment().light()}, chosen_pdf));
+    const std::uint32_t environment = world.environment().light();
+    const float chosen_pdf = chosen_pdf_from_afar(world, vertex.position, environment, light.wi);
+    return found + contribution(light, light_sample_scale({light, 1.0f, environment}, chosen_pdf));
 }
 
 /// Adds the light of all branches of the tree of one sample.
@@ -48,9 +50,7 @@ struct WhittedLight {
     void visit(const DeltaBranch& branch, NoState, const Vertex& vertex) {
         const EyePath& path = branch.path;
         const bool escapes = vertex.kind == Vertex::Kind::Environment;
-        if (escapes && path.is_seen() &&
-            !(world.traits().has_environment && world.traits().environment_visible_to_camera))
-            found.alpha = 0.0f;
+        if (escapes && path.is_seen() && world.environment().met(true).empty()) found.alpha = 0.0f;
         if (path.edges >= lengths.min_depth)
             (path.is_seen() ? found.seen : found.scattered) += met_light(world, path, vertex);
         if (vertex.kind != Vertex::Kind::Surface) return;

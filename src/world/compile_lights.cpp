@@ -137,7 +137,10 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
         data.environment_visible = scene.environment.visible_to_camera;
         data.lights.push_back(compile_environment(scene, data.from_rec709, threads, problems));
         data.emitter_of_light.emplace_back();
+        data.lights_met_afar.push_back(data.environment);
     }
+    for (std::uint32_t light = 0; light < data.lights.size(); ++light)
+        if (std::holds_alternative<SunLight>(data.lights[light])) data.lights_met_afar.push_back(light);
 }
 
 }  // namespace etendue

@@ -4,8 +4,13 @@
 
 namespace etendue {
 
-Rgb Environment::radiance(const Vec3f& direction) const {
-    return light() != kNone ? etendue::environment_radiance(data_.lights[data_.environment], direction) : Rgb();
+std::span<const std::uint32_t> Environment::met(bool by_camera) const {
+    const std::span<const std::uint32_t> all = data_.lights_met_afar;
+    return by_camera ? all.first(light() != kNone && data_.environment_visible ? 1 : 0) : all;
+}
+
+Rgb Environment::radiance(std::uint32_t light, const Vec3f& direction) const {
+    return light != kNone ? radiance_from_afar(data_.lights[light], direction) : Rgb();
 }
 
 void Environment::look(std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) const {
@@ -16,9 +21,8 @@ void Environment::sample_light(std::span<const Vec2f> u, std::span<LightSample> 
     sample_environment_compensated(data_.lights[data_.environment], u, samples);
 }
 
-float Environment::pdf_solid_angle(const Vec3f& direction) const {
-    if (light() == kNone) return 0.0f;
-    return compensated_environment_pdf_solid_angle(data_.lights[data_.environment], direction);
+float Environment::pdf_solid_angle(std::uint32_t light, const Vec3f& direction) const {
+    return light != kNone ? compensated_pdf_solid_angle_from_afar(data_.lights[light], direction) : 0.0f;
 }
 
 LightSample Environment::sample_all(const Vec3f& point, Vec2f u) const {
@@ -26,9 +30,8 @@ LightSample Environment::sample_all(const Vec3f& point, Vec2f u) const {
     return etendue::sample_light(data_.lights[data_.environment], point, u, u);
 }
 
-float Environment::emission_pdf_solid_angle(const Vec3f& direction) const {
-    if (light() == kNone) return 0.0f;
-    return etendue::environment_pdf_solid_angle(data_.lights[data_.environment], direction);
+float Environment::emission_pdf_solid_angle(std::uint32_t light, const Vec3f& direction) const {
+    return light != kNone ? pdf_solid_angle_from_afar(data_.lights[light], direction) : 0.0f;
 }
 
 }  // namespace etendue

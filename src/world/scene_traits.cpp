@@ -18,6 +18,9 @@ bool is_specular(const Material& material) {
     if (material.unlit) return false;
     if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) return !has_non_delta(*constant);
     const GltfModel& model = std::get<GltfModel>(material.model);
+    if (material.is_pane && !model.layers && model.transmission == 1.0f && model.specular == 0.0f &&
+        model.metallic == 0.0f)
+        return false;  // light goes straight on
     return model.roughness * model.roughness < kSmoothAlpha ||
            (model.layers && model.layers->clearcoat > 0.0f &&
             model.layers->clearcoat_roughness * model.layers->clearcoat_roughness < kSmoothAlpha);

@@ -52,6 +52,8 @@ struct WorldData {
     bool has_unsampled_emitters = false;       ///< some surface that emits is none of `lights`
     std::uint32_t environment = kNone;         ///< index into `lights`
     bool environment_visible = true;           ///< to camera rays
+    /// Lists the lights that rays meet which leave the scene: the environment, if there is one, and then the suns.
+    std::vector<std::uint32_t> lights_met_afar;
     Camera camera;
     TransformMotion camera_motion;  ///< camera to world; empty if it stands still
     ColorMatrix from_rec709;        ///< linear Rec.709 to the working space

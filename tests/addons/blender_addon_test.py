@@ -58,6 +58,12 @@ class Image(unittest.TestCase):
         self.assertEqual((vcm["merge"], vcm["connections"]), ("all", "cache:4"))
         self.assertNotIn("light_samples", vcm)
 
+    def test_mist_is_blenders_where_its_pass_is_asked_for(self):
+        scene = fake.scene()
+        scene.world = fake.world()
+        self.assertNotIn("mist", written(scene).document)
+        self.assertEqual(written(scene, aovs=["mist"]).document["mist"], {"start": 2.0, "depth": 8.0, "falloff": "inverse-quadratic"})
+
     def test_what_ends_the_render(self):
         self.assertFalse({"time", "error", "adaptive"} & set(written().document))
         document = written(fake.scene(time=9.0, error=0.05, robust=6)).document
@@ -71,13 +77,13 @@ class Image(unittest.TestCase):
 
 
 class Lamps(unittest.TestCase):
-    def lamp(self, kind, visible=False, **properties):
-        return scene_settings.lamp(fake.item("Lamp", fake.light(kind, **properties), "LIGHT", visible_camera=visible))
+    def lamp(self, kind, visible=False, version=(3, 4, 1), **properties):
+        return scene_settings.lamp(fake.item("Lamp", fake.light(kind, **properties), "LIGHT", visible_camera=visible), version)
 
     def test_points_have_blenders_watts(self):
         self.assertEqual(self.lamp("POINT"), {"color": [1.0, 0.5, 0.25], "power": 10.0})
         soft = self.lamp("SPOT", shadow_soft_size=0.2)
-        self.assertEqual((soft["radius"], soft["visible_to_camera"]), (0.2, False))
+        self.assertEqual((soft["radius"], soft["visible_to_camera"], soft["stops_light"]), (0.2, False, False))
 
     def test_suns(self):
         self.assertEqual(self.lamp("SUN", angle=0.01), {"color": [1.0, 0.5, 0.25], "irradiance": 10.0, "angle": 0.01})
@@ -85,8 +91,9 @@ class Lamps(unittest.TestCase):
     def test_areas(self):
         square = self.lamp("AREA", size=2.0)
         self.assertEqual((square["type"], square["width"], square["height"]), ("rectangle", 2.0, 2.0))
-        # Radiance: power / (pi area) is to be Cycles' 10 / (4 area).
+        # Radiance: power / (pi area) is to be Cycles' 10 / (4 area), since Blender 4.0 10 / (pi area).
         self.assertAlmostEqual(square["power"] / math.pi, 10.0 / 4.0)
+        self.assertEqual(self.lamp("AREA", version=(4, 0, 0))["power"], 10.0)
         self.assertNotIn("spread", square)
         self.assertEqual(self.lamp("AREA", shape="RECTANGLE", size_y=3.0)["height"], 3.0)
         disk, ellipse = (self.lamp("AREA", shape=shape, size=3.0, size_y=2.0) for shape in ("DISK", "ELLIPSE"))
@@ -146,7 +153,7 @@ class Cameras(unittest.TestCase):
     def test_shift_clip_and_blades(self):
         camera = fake.camera(shift_x=0.1)
         camera.dof.use_dof, camera.dof.aperture_blades, camera.dof.aperture_ratio = True, 6, 2.0
-        found = scene_settings.camera_settings(camera, scene_settings.Written())
+        found = scene_settings.camera_settings(camera, scene_settings.Written(), 4, 3)
         self.assertEqual(found, {"shift": [0.1, 0.0], "clip_start": 0.1, "clip_end": 100.0, "blades": 6, "blade_rotation": 0.0,
                                  "aperture_ratio": 2.0})
 
@@ -165,14 +172,23 @@ class Cameras(unittest.TestCase):
                                              ("VERTICAL", 4, 3, 32.0), ("VERTICAL", 3, 4, 24.0)):
             self.assertAlmostEqual(scene_settings.sensor_of_longer_side(fake.camera(sensor_fit=fit), width, height), expected)
 
+    def test_shifts_and_orthographic_scales_are_of_the_side_that_the_sensor_fits(self):
+        for fit, shift, halves in (("AUTO", 0.1, (3.0, 1.5)), ("HORIZONTAL", 0.1, (3.0, 1.5)), ("VERTICAL", 0.05, (6.0, 3.0))):
+            camera = fake.camera("ORTHO", sensor_fit=fit, shift_x=0.1, ortho_scale=6.0)
+            self.assertEqual(scene_settings.camera_settings(camera, scene_settings.Written(), 2, 1)["shift"], [shift, 0.0])
+            self.assertEqual(scene_settings.orthographic_halves(camera, 2, 1), halves)
+        document = {"cameras": [{"orthographic": {"xmag": 1.0, "ymag": 1.0, "znear": 0.1}}], "nodes": [{"name": "V", "camera": 0}]}
+        glb.set_orthographic(document, "V", (3.0, 1.5))
+        self.assertEqual(document["cameras"][0]["orthographic"], {"xmag": 3.0, "ymag": 1.5, "znear": 0.1})
+
     def test_panoramas(self):
         settings = fake.SimpleNamespace(panorama_type="FISHEYE_EQUISOLID", fisheye_fov=2.0, fisheye_lens=9.0)
         fisheye = fake.camera("PANO", cycles=settings)
-        found = scene_settings.camera_settings(fisheye, scene_settings.Written())
+        found = scene_settings.camera_settings(fisheye, scene_settings.Written(), 4, 3)
         self.assertEqual((found["type"], found["mapping"], found["fov"], found["focal_length"]), ("fisheye", "equisolid", 2.0, 9.0))
         newer = fake.camera("PANO", panorama_type="MIRRORBALL")
         result = scene_settings.Written()
-        self.assertEqual(scene_settings.camera_settings(newer, result)["type"], "equirectangular")
+        self.assertEqual(scene_settings.camera_settings(newer, result, 4, 3)["type"], "equirectangular")
         self.assertIn("MIRRORBALL", result.notes[0])
 
 
@@ -189,6 +205,16 @@ class Materials(unittest.TestCase):
             glass = fake.principled(IOR=1.6, **{name: 1.0})
             self.assertEqual(self.material(glass)[0], {"solid": True, "ior": 1.6})
             self.assertEqual(self.material(glass, closed=False)[0], {"ior": 1.6})
+
+    def test_glass_of_blender_4_has_its_colour_after_two_surfaces(self):
+        for closed, weight, expected in ((True, 1.0, [0.5, 1.0, 0.0]), (False, 1.0, None), (True, 0.5, None)):
+            glass = fake.principled(Transmission_Weight=weight, Base_Color=(0.25, 1.0, 0.0, 1.0))
+            self.assertEqual(self.material(glass, closed)[0].get("base_color"), expected)
+        self.assertNotIn("base_color", self.material(fake.principled(Transmission=1.0, Base_Color=(0.25, 1.0, 0.0, 1.0)))[0])
+
+    def test_without_nodes_it_is_matte(self):
+        plain = fake.SimpleNamespace(name="M", use_nodes=False, node_tree=None, diffuse_color=(0.2, 0.4, 1.5, 1.0))
+        self.assertEqual(scene_settings.material(plain, True, scene_settings.Written()), {"diffuse": {"albedo": [0.2, 0.4, 1.0]}})
 
     def test_sheen_of_both_versions(self):
         new = fake.principled(Sheen_Weight=0.5, Sheen_Tint=(1.0, 0.5, 0.0, 1.0), Sheen_Roughness=0.3)
@@ -272,6 +298,17 @@ class Glb(unittest.TestCase):
         self.assertEqual(glb.leave_out(document, {"B"}), ["A"])
         self.assertEqual(document["nodes"], [{"name": "A", "children": [1]}, {"name": "B", "mesh": 1}])
 
+    def test_what_has_no_material_gets_that_of_blender(self):
+        document = {"materials": [{"name": "M"}], "meshes": [{"primitives": [{"material": 0}, {}]}, {"primitives": [{}]}]}
+        glb.give_all_materials(document)
+        self.assertEqual([[primitive["material"] for primitive in mesh["primitives"]] for mesh in document["meshes"]], [[0, 1], [1]])
+        self.assertEqual(document["materials"][1]["pbrMetallicRoughness"],
+                         {"baseColorFactor": [0.8, 0.8, 0.8, 1.0], "metallicFactor": 0.0})
+        self.assertEqual(document["extensionsUsed"], [glb.SPECULAR])
+        whole = {"meshes": [{"primitives": [{"material": 0}]}]}
+        glb.give_all_materials(whole)
+        self.assertEqual(whole, {"meshes": [{"primitives": [{"material": 0}]}]})
+
     def test_what_the_camera_does_not_see_has_materials_of_its_own(self):
         document = {"materials": [{"name": "M"}], "meshes": [{"primitives": [{"material": 0}, {}]}],
                     "nodes": [{"name": "A", "mesh": 0}, {"name": "B", "mesh": 0}, {"name": "C", "mesh": 0}]}
@@ -344,13 +381,21 @@ class Pixels(unittest.TestCase):
 
     def test_conventions(self):
         _, normal = next(row for row in passes.STANDARD if row[1].name == "Normal")
-        self.assertEqual(pixels.pixels_of(self.exr(N__X=1.0, N__Y=2.0, N__Z=3.0), normal)[1, 0].tolist(), [1.0, -3.0, 2.0])
+        self.assertEqual(pixels.pixels_of(self.exr(N__X=1.0, N__Y=2.0, N__Z=3.0), normal, {})[1, 0].tolist(), [1.0, -3.0, 2.0])
         _, uv = next(row for row in passes.STANDARD if row[1].name == "UV")
-        self.assertEqual(pixels.pixels_of(self.exr(uv__U=0.25, uv__V=0.75, A=1.0), uv)[1, 0].tolist(), [0.25, 0.25, 1.0])
+        self.assertEqual(pixels.pixels_of(self.exr(uv__U=0.25, uv__V=0.75, A=1.0), uv, {})[1, 0].tolist(), [0.25, 0.25, 1.0])
         _, diffuse = next(row for row in passes.STANDARD if row[1].name == "DiffDir")
         light = {f"diffuse_direct__{letter}": 3.0 for letter in "RGB"} | {f"albedo_diffuse__{letter}": 1.0 for letter in "RGB"}
-        self.assertEqual(pixels.pixels_of(self.exr(**light), diffuse)[0, 0].tolist(), [2.0, 2.0, 2.0])
-        self.assertIsNone(pixels.pixels_of(self.exr(), diffuse))
+        self.assertEqual(pixels.pixels_of(self.exr(**light), diffuse, {})[0, 0].tolist(), [2.0, 2.0, 2.0])
+        self.assertIsNone(pixels.pixels_of(self.exr(), diffuse, {}))
+
+    def test_numbers_become_pass_indices_by_the_names_of_objects(self):
+        _, item = next(row for row in passes.STANDARD if row[1].name == "IndexOB")
+        image = self.exr(object_id__X=1.0)
+        image.attributes["etendue:names/object_id"] = json.dumps(["Ball", "Place/in/Wheel", "a/b"]).encode()
+        given = {"object_id": {"Ball": 7, "Wheel": 3, "a/b": 5}}
+        self.assertEqual(pixels.pixels_of(image, item, given).ravel().tolist(), [3.0, 7.0])
+        self.assertEqual(pixels.indices(["Ball", "Place/in/Wheel", "a/b", "other"], given["object_id"]).tolist(), [0, 7, 3, 5, 0])
 
 
 class Program(unittest.TestCase):

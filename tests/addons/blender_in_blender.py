@@ -25,8 +25,10 @@ def save(name, blend, image, samples):
     scenes.set_cycles(scene, int(samples))
     scene.render.engine = "CYCLES"
     scene.etendue.samples = int(samples)
+    mist = scene.world.mist_settings
+    mist.start, mist.depth, mist.falloff = 7.0, 6.0, "INVERSE_QUADRATIC"
     layer = bpy.context.view_layer
-    for flag in ("use_pass_z", "use_pass_normal", "use_pass_position", "use_pass_uv", "use_pass_diffuse_direct",
+    for flag in ("use_pass_z", "use_pass_mist", "use_pass_object_index", "use_pass_material_index", "use_pass_normal", "use_pass_position", "use_pass_uv", "use_pass_diffuse_direct",
                  "use_pass_diffuse_indirect", "use_pass_diffuse_color", "use_pass_glossy_direct", "use_pass_glossy_indirect",
                  "use_pass_transmission_direct", "use_pass_transmission_indirect", "use_pass_emit", "use_pass_environment",
                  "use_pass_cryptomatte_object"):

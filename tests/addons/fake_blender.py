@@ -50,7 +50,8 @@ def principled(**inputs):
 
 
 def world(background=None, **properties):
-    return SimpleNamespace(use_nodes=True, color=(0.1, 0.2, 0.3), node_tree=tree("OUTPUT_WORLD", background), **properties)
+    mist = SimpleNamespace(start=2.0, depth=8.0, falloff="INVERSE_QUADRATIC")
+    return SimpleNamespace(use_nodes=True, mist_settings=mist, color=(0.1, 0.2, 0.3), node_tree=tree("OUTPUT_WORLD", background), **properties)
 
 
 def light(kind, **properties):

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,26 @@ TEST_F(Layers, StandWhereTheyAreToStand) {
 }
 
 // Two lamps of one colour each, the sky, and an object that does not shine.
+TEST_F(Layers, OfNumbersComeWithTheNamesOfTheirFile) {
+    const ProgramResult result =
+        render("a.exr", {"--aov", "object_id", "--aov", "surface=material_id", "--aov", "mist"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const ChannelImage image = read_channels(work_ / "a.exr");
+    const auto names = [&](const char* layer) {
+        const ImageAttribute* const found = image.find(std::string("etendue:names/") + layer);
+        return found != nullptr ? std::get<std::string>(found->value) : std::string("none");
+    };
+    EXPECT_TRUE(names("object_id").starts_with("[\"")) << names("object_id");
+    EXPECT_TRUE(names("surface").starts_with("[\"")) << names("surface");
+    EXPECT_EQ(names("mist"), "none");
+    const auto mist = std::ranges::find(image.channel_names, "mist.Z") - image.channel_names.begin();
+    const std::size_t channels = image.channel_names.size();
+    for (std::size_t p = static_cast<std::size_t>(mist); p < image.pixels.pixels.size(); p += channels) {
+        EXPECT_GE(image.pixels.pixels[p], 0.0f);
+        EXPECT_LE(image.pixels.pixels[p], 1.0f);
+    }
+}
+
 TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
     const fs::path file = folder_ / "box" / "scene.gltf";
     std::string scene = read_file(file);

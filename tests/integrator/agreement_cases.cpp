@@ -72,6 +72,16 @@ std::vector<AgreementCase> all_cases() {
         {"PointPlastic", under(point_light())},
         {"SpotConductor", under(spot_light(), conductor(0.6f))},
         {"SunRoughGlass", under(sun_light(), glass(0.6f))},
+        {"WideSunPlastic",
+         [](SceneDesc& scene) {
+             add_ball(scene, gltf_plastic());
+             scene.lights.push_back(sun_light());
+             scene.lights.back().angle = 0.3f;
+         },
+         {.max_depth = 4},
+         {0, 0, kAgreementWidth, kAgreementHeight},
+         16,
+         {"path", "light", "bdpt", "vcm"}},
         {"Panel", under_panel, {.max_depth = 6}, {0, 0, kAgreementWidth, kAgreementHeight}, 16},
         {"HiddenLamp",
          under_hidden_lamp,

@@ -39,7 +39,8 @@ CosineImage::~CosineImage() {
 }
 
 std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integrator, SampleSequence sequence,
-                               std::uint32_t spp, std::uint32_t seed, const std::string& working_space) {
+                               std::uint32_t spp, std::uint32_t seed, const std::string& working_space,
+                               FilterShape filter) {
     SceneDesc sized = scene;
     sized.settings.film.width = kImageSide;
     sized.settings.film.height = kImageSide;
@@ -51,7 +52,7 @@ std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integra
     const World world = compile_world(std::move(sized), ColorConfig::built_in(), working_space, threads, warnings);
     RenderOptions options = whole_image(kImageSide, kImageSide, spp, seed);
     options.sequence = sequence;
-    options.filter = PixelFilter(FilterShape::Box);
+    options.filter = PixelFilter(filter);
     const std::atomic<bool> stop{false};
     const RenderResult result = render(world, integrator, options, threads, stop, {});
     if (result.counters.dropped > 0) throw IoError("samples were dropped");

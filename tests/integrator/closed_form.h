@@ -10,6 +10,7 @@
 
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "film/pixel_filter.h"
 #include "integrator/integrator.h"
 #include "sampling/sampler.h"
 #include "scene/scene_desc.h"
@@ -94,6 +95,6 @@ inline constexpr int kImageSide = 16;
 /// Renders `scene` in `working_space`, pixels in rows.
 [[nodiscard]] std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integrator,
                                              SampleSequence sequence, std::uint32_t spp, std::uint32_t seed,
-                                             const std::string& working_space);
+                                             const std::string& working_space, FilterShape filter = FilterShape::Box);
 
 }  // namespace etendue::test

@@ -59,6 +59,25 @@ std::vector<ClosedFormCase> mesh_light_cases() {
     add(hidden, quad_facing_down({0.0f, 0.2f, kZ}, 0.5f), unseen);
     cases.push_back({"hidden_quad", hidden, kRho * 2.0 * rectangle_form_factor(-0.25, 0.25, -0.25, 0.25, 0.2)});
 
+    // Between the floor and a point whose light goes on through it.
+    SceneDesc clear = floor_seen_at(0.0f);
+    MaterialDesc passing = emitter(2.0f);
+    passing.override_model = {};
+    passing.metallic = 0.0f;
+    passing.roughness = 0.0f;
+    passing.ior = 1.0f;
+    passing.specular = 0.0f;
+    passing.transmission = 1.0f;
+    add(clear, quad_facing_down({0.7f, 1.0f, kZ + 0.2f}, 1.0f), passing);
+    add_light(clear, LightType::Point, 5.0f, {1.5f, 2.0f, kZ});
+    const double from_point = 5.0 * 2.0 / std::pow(std::hypot(1.5, 2.0), 3.0);
+    cases.push_back({"quad_that_stops_no_light",
+                     clear,
+                     kRho * 2.0 * square_factor + kRho / kPiD * from_point,
+                     1e-4,
+                     {},
+                     kFindDeltaLights});
+
     SceneDesc behind = floor_seen_at(0.0f);
     add(behind, quad_facing_up({0.7f, 1.0f, kZ + 0.2f}, 1.0f), emitter(2.0f));
     cases.push_back({"quad_from_behind", behind, 0.0});
@@ -155,7 +174,22 @@ std::vector<ClosedFormCase> punctual_light_cases() {
 
     // The whole disk is above the horizon: the irradiance is that of parallel light.
     sun.lights.back().angle = 0.8f;
-    cases.push_back({"sun_disk", sun, kRho / kPiD * 3.0 * 0.8, 1e-4, {}, kFindDeltaLights});
+    cases.push_back({"sun_disk", sun, kRho / kPiD * 3.0 * 0.8, 1e-4});
+
+    // The mirror shows the middle of the disk; the camera that looks there sees nothing.
+    SceneDesc mirrored;
+    MaterialDesc mirror;
+    mirror.override_model = ConductorDesc{};
+    add(mirrored, quad_facing_up({0.0f, 0.0f, 0.0f}, 2.0f), mirror);
+    add_light(mirrored, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}).angle = 0.2f;
+    SceneDesc looking_up = mirrored;
+    look(looking_up, {0.0f, 0.4f, 0.0f}, {0.0f, 1.0f, 0.0f});
+    look(mirrored, {0.0f, 0.4f, 0.0f}, {0.0f, -1.0f, 0.0f});
+    const double cap = 2.0 * kPiD * (1.0 - std::cos(0.1));
+    ClosedFormCase in_mirror{"sun_in_mirror", mirrored, 3.0 / cap * 2.0 / (1.0 + std::cos(0.1)), 1e-4};
+    in_mirror.is_exact = true;
+    cases.push_back(in_mirror);
+    cases.push_back({"sun_seen_directly", looking_up, 0.0, 0.0});
 
     SceneDesc sunny_square;
     add(sunny_square, quad_facing_up({0.0f, 0.0f, 0.0f}, 2.0f), diffuse(kAlbedo));
@@ -163,7 +197,7 @@ std::vector<ClosedFormCase> punctual_light_cases() {
     look(sunny_square, {0.0f, 0.4f, 0.0f}, {0.0f, -1.0f, 0.0f}, 0.7f);
     cases.push_back({"directional_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, light_too(kFindDeltaLights)});
     sunny_square.lights.back().angle = 0.8f;
-    cases.push_back({"sun_disk_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-4, {}, light_too(kFindDeltaLights)});
+    cases.push_back({"sun_disk_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-4, {}, light_too(kFindDirectLight)});
     return cases;
 }
 

@@ -74,8 +74,7 @@ TEST(Environment, DirectionsHaveTheStatedDensity) {
             return s.wi;
         };
         const SamplerCheck check = check_sphere_sampler(
-            sampler, [&](const Vec3f& w) { return static_cast<double>(environment_pdf_solid_angle(light, w)); },
-            options);
+            sampler, [&](const Vec3f& w) { return static_cast<double>(pdf_solid_angle_from_afar(light, w)); }, options);
         EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, list.size())) << check.chi2.str();
         EXPECT_NEAR(check.pdf_integral, 1.0, 5e-3);
     }
@@ -95,8 +94,8 @@ TEST(Environment, SamplesStateTheRadianceAndDensityOfTheirDirection) {
             EXPECT_NEAR(length(s.wi), 1.0f, 1e-5f);
             EXPECT_TRUE(std::isinf(s.distance));
             EXPECT_FALSE(s.is_delta);
-            const Rgb radiance = environment_radiance(light, s.wi);
-            const float pdf = environment_pdf_solid_angle(light, s.wi);
+            const Rgb radiance = radiance_from_afar(light, s.wi);
+            const float pdf = pdf_solid_angle_from_afar(light, s.wi);
             EXPECT_NEAR(s.radiance.g, radiance.g, 2e-3f * (s.radiance.g + 1.0f));
             // The density jumps between texels; rounding may take a direction to the next one.
             if (std::abs(pdf / s.pdf_solid_angle - 1.0f) > 1e-2f) ++differing;
@@ -117,8 +116,8 @@ TEST(Environment, WhereThereIsLightThereIsDensity) {
             const float phi = 2.0f * kPi * random.next();
             const float r = std::sqrt(1.0f - z * z);
             const Vec3f w(r * std::cos(phi), z, r * std::sin(phi));
-            const bool lit = average(environment_radiance(light, w)) > 1e-5f;
-            EXPECT_TRUE(!lit || environment_pdf_solid_angle(light, w) > 0.0f);
+            const bool lit = average(radiance_from_afar(light, w)) > 1e-5f;
+            EXPECT_TRUE(!lit || pdf_solid_angle_from_afar(light, w) > 0.0f);
         }
     }
 }
@@ -139,7 +138,7 @@ TEST(Environment, LightSamplesIntegrateWhatLookUpsDo) {
         const Light& light = environment.light;
         SCOPED_TRACE(name);
         const double expected = integrate_directions(500, [&](const Vec3f& w) {
-            return average(environment_radiance(light, w)) * std::max(0.0f, dot(w, normal));
+            return average(radiance_from_afar(light, w)) * std::max(0.0f, dot(w, normal));
         });
         const TTestResult result =
             t_test(irradiance_samples(light, Vec3f(0.0f), normal, 50'000, 7), expected, 2e-3 * expected);
@@ -172,9 +171,8 @@ TEST(Environment, LookingAlongManyDirectionsAtOnceIsTheSame) {
         std::vector<EnvironmentRadiance> seen(directions.size());
         look_at_environment(environment.light, directions, seen);
         for (std::size_t i = 0; i < directions.size(); ++i) {
-            EXPECT_EQ(seen[i].radiance, environment_radiance(environment.light, directions[i])) << environment.name;
-            EXPECT_EQ(seen[i].pdf_solid_angle,
-                      compensated_environment_pdf_solid_angle(environment.light, directions[i]))
+            EXPECT_EQ(seen[i].radiance, radiance_from_afar(environment.light, directions[i])) << environment.name;
+            EXPECT_EQ(seen[i].pdf_solid_angle, compensated_pdf_solid_angle_from_afar(environment.light, directions[i]))
                 << environment.name;
         }
     }
@@ -197,13 +195,13 @@ TEST(Environment, CompensatedDirectionsHaveTheStatedDensity) {
         const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
             const LightSample s = sample_light_compensated(light, Vec3f(0.0f), random.next_2d(), random.next_2d());
             if (!(s.pdf_solid_angle > 0.0f)) return std::nullopt;
-            EXPECT_NEAR(compensated_environment_pdf_solid_angle(light, s.wi) / s.pdf_solid_angle, 1.0f, 0.01f);
-            EXPECT_NEAR(s.radiance.g, environment_radiance(light, s.wi).g, 2e-3f * (s.radiance.g + 1.0f));
+            EXPECT_NEAR(compensated_pdf_solid_angle_from_afar(light, s.wi) / s.pdf_solid_angle, 1.0f, 0.01f);
+            EXPECT_NEAR(s.radiance.g, radiance_from_afar(light, s.wi).g, 2e-3f * (s.radiance.g + 1.0f));
             return s.wi;
         };
         const SamplerCheck check = check_sphere_sampler(
             sampler,
-            [&](const Vec3f& w) { return static_cast<double>(compensated_environment_pdf_solid_angle(light, w)); },
+            [&](const Vec3f& w) { return static_cast<double>(compensated_pdf_solid_angle_from_afar(light, w)); },
             options);
         EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, list.size())) << check.chi2.str();
         EXPECT_NEAR(check.pdf_integral, 1.0, 5e-3);
@@ -215,7 +213,7 @@ TEST(Environment, OnlyWhatIsBrighterThanTheMeanIsLeftByCompensation) {
         const std::string& name = environment.name;
         const Light& light = environment.light;
         SCOPED_TRACE(name);
-        const auto radiance = [&](const Vec3f& w) { return average(environment_radiance(light, w)); };
+        const auto radiance = [&](const Vec3f& w) { return average(radiance_from_afar(light, w)); };
         const double mean = integrate_directions(400, radiance) / (4.0 * M_PI);
         const double above = integrate_directions(
             400, [&](const Vec3f& w) { return std::max(0.0, static_cast<double>(radiance(w)) - mean); });
@@ -226,8 +224,8 @@ TEST(Environment, OnlyWhatIsBrighterThanTheMeanIsLeftByCompensation) {
         }
         if (name == "bright on dim") {
             // Away from the lamp, whose light is in the mean, the sky needs none.
-            EXPECT_EQ(compensated_environment_pdf_solid_angle(light, {0, -1, 0}), 0.0f);
-            EXPECT_GT(environment_pdf_solid_angle(light, {0, -1, 0.01f}), 0.0f);
+            EXPECT_EQ(compensated_pdf_solid_angle_from_afar(light, {0, -1, 0}), 0.0f);
+            EXPECT_GT(pdf_solid_angle_from_afar(light, {0, -1, 0.01f}), 0.0f);
         }
     }
 }
@@ -240,7 +238,7 @@ TEST(Environment, CompensatedSamplesAndOthersBringAllLight) {
         const Light& light = environment.light;
         SCOPED_TRACE(environment.name);
         const double expected = integrate_directions(500, [&](const Vec3f& w) {
-            return average(environment_radiance(light, w)) * std::max(0.0f, dot(w, normal));
+            return average(radiance_from_afar(light, w)) * std::max(0.0f, dot(w, normal));
         });
         constexpr float kUniform = 0.25f * kInvPi;
         Random random(11);
@@ -251,8 +249,8 @@ TEST(Environment, CompensatedSamplesAndOthersBringAllLight) {
                 value += static_cast<double>(average(s.radiance) * std::max(0.0f, dot(s.wi, normal)) *
                                              power_heuristic(s.pdf_solid_angle, kUniform) / s.pdf_solid_angle);
             const Vec3f w = square_to_sphere(random.next_2d());
-            const float weight = power_heuristic(kUniform, compensated_environment_pdf_solid_angle(light, w));
-            value += static_cast<double>(average(environment_radiance(light, w)) * std::max(0.0f, dot(w, normal)) *
+            const float weight = power_heuristic(kUniform, compensated_pdf_solid_angle_from_afar(light, w));
+            value += static_cast<double>(average(radiance_from_afar(light, w)) * std::max(0.0f, dot(w, normal)) *
                                          weight / kUniform);
         }
         const TTestResult result = t_test(samples, expected, 2e-3 * expected);
@@ -266,7 +264,7 @@ TEST(Environment, PowerIsRadianceThroughADiskOverAllDirections) {
         const Light& light = environment.light;
         const float radius = 3.0f;
         const double numerical =
-            integrate_directions(400, [&](const Vec3f& w) { return average(environment_radiance(light, w)); }) * M_PI *
+            integrate_directions(400, [&](const Vec3f& w) { return average(radiance_from_afar(light, w)); }) * M_PI *
             9.0;
         // The power takes the mean of each row times the sine at its middle. At a pole the sine rises from nothing
         // while the light falls, so the two do not separate; the choice between lights bears that.
@@ -332,7 +330,7 @@ TEST(Environment, PolesHaveTheDensityOfTheirSamples) {
     for (int i = 0; i < 1000; ++i) {
         const LightSample s = sample_light(light, Vec3f(0.0f), random.next_2d(), random.next_2d());
         ASSERT_GT(s.pdf_solid_angle, 0.0f);
-        EXPECT_NEAR(environment_pdf_solid_angle(light, s.wi) / s.pdf_solid_angle, 1.0f, 0.01f) << s.wi;
+        EXPECT_NEAR(pdf_solid_angle_from_afar(light, s.wi) / s.pdf_solid_angle, 1.0f, 0.01f) << s.wi;
     }
 }
 

@@ -71,8 +71,8 @@ TEST(LightSelector, IsEmptyWithoutLights) {
 TEST(Light, OnlyEnvironmentsShineFromInfinity) {
     for (const Light& light : mixed_lights()) {
         const bool environment = std::holds_alternative<ConstantEnvironment>(light);
-        EXPECT_EQ(is_black(environment_radiance(light, {0, 1, 0})), !environment);
-        EXPECT_EQ(environment_pdf_solid_angle(light, {0, 1, 0}) > 0.0f, environment);
+        EXPECT_EQ(is_black(radiance_from_afar(light, {0, 1, 0})), !environment);
+        EXPECT_EQ(pdf_solid_angle_from_afar(light, {0, 1, 0}) > 0.0f, environment);
     }
 }
 

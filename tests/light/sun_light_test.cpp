@@ -1,5 +1,6 @@
 #include "light/sun_light.h"
 
+#include "core/frame.h"
 #include "light/light_checks.h"
 #include "support/chi2.h"
 #include "support/t_test.h"
@@ -47,13 +48,36 @@ TEST(SunLight, DirectionsFillTheDiskEvenly) {
     };
     check([&](Random& random) -> std::optional<Vec3f> {
         const LightSample s = sun.sample({1, 2, 3}, random.next_2d());
-        EXPECT_TRUE(s.is_delta);
+        EXPECT_FALSE(s.is_delta);
+        EXPECT_NEAR(s.pdf_solid_angle, density(-s.wi), 1e-3 * density(-s.wi));
         EXPECT_TRUE(std::isinf(s.distance));
         return -s.wi;
     });
     check([&](Random& random) -> std::optional<Vec3f> {
         return sun.sample_emission({random.next_2d(), random.next_2d(), random.next_2d()}, {}).direction;
     });
+}
+
+// What a ray meets within the disk is what its samples bring, over their density, and there is nothing beside it.
+TEST(SunLight, RaysMeetTheRadianceOfItsSamples) {
+    const Vec3f direction = normalize({0.3f, -1.0f, 0.2f});
+    for (const float angle : kAngles) {
+        const SunLight sun(direction, {3.0f, 6.0f, 9.0f}, angle);
+        Random random(5);
+        int met = 0;
+        constexpr int kSamples = 1000;
+        for (int i = 0; i < kSamples; ++i) {
+            const LightSample s = sun.sample(Vec3f(0.0f), random.next_2d());
+            // Rounding takes some from the rim of a small disk.
+            met += sun.pdf_solid_angle(s.wi) == s.pdf_solid_angle && sun.radiance(s.wi) == s.radiance ? 1 : 0;
+        }
+        EXPECT_GT(met, 0.99 * kSamples) << angle;
+        EXPECT_EQ(sun.radiance(-direction), sun.sample(Vec3f(0.0f), {0.5f, 0.5f}).radiance);
+        const Vec3f beside = Frame::from_normal(-direction)
+                                 .to_world({std::sin(0.55f * angle + 1e-3f), 0.0f, std::cos(0.55f * angle + 1e-3f)});
+        EXPECT_TRUE(is_black(sun.radiance(beside))) << angle;
+        EXPECT_EQ(sun.pdf_solid_angle(beside), 0.0f) << angle;
+    }
 }
 
 }  // namespace

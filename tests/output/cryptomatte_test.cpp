@@ -64,6 +64,12 @@ TEST(MatteManifest, HasEveryNameWithItsIdInHexadecimalDigits) {
 }
 
 // Found by trying numbers one after the other.
+TEST(IdNames, AreAListInTheOrderOfTheIds) {
+    const std::vector<std::string> names{"b", "a \"quoted\"", "b"};
+    EXPECT_EQ(id_names(names), R"(["b","a \"quoted\"","b"])");
+    EXPECT_EQ(id_names({}), "[]");
+}
+
 TEST(MatteCollisions, AreDifferentNamesWithOneId) {
     std::vector<std::string> names{"a", "b", "a"};
     EXPECT_TRUE(matte_collisions(names).empty());

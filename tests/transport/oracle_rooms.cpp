@@ -144,6 +144,7 @@ World many_lights_room() {
     scene.lights.push_back(point_light());
     scene.lights.push_back(spot_light());
     scene.lights.push_back(sun_light());
+    scene.lights.back().angle = 0.2f;
     for (int i = 0; i < 9; ++i) {
         const auto x = static_cast<float>(i % 3);
         const auto z = static_cast<float>(i / 3);

@@ -56,12 +56,12 @@ TEST(CubeEnvironment, FacesLieAroundTheScene) {
     const World world = compile(cube.scene);
     const Rgb expected[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}, Rgb(kHalf)};
     for (std::size_t f = 0; f < 6; ++f) {
-        const Rgb found = world.environment().radiance(kAxes[f]);
+        const Rgb found = world.environment().radiance(world.environment().light(), kAxes[f]);
         EXPECT_NEAR(found.r, expected[f].r, 1e-5f) << f;
         EXPECT_NEAR(found.g, expected[f].g, 1e-5f) << f;
         EXPECT_NEAR(found.b, expected[f].b, 1e-5f) << f;
     }
-    EXPECT_GT(world.environment().emission_pdf_solid_angle({1, 0, 0}), 0.0f);
+    EXPECT_GT(world.environment().emission_pdf_solid_angle(world.environment().light(), {1, 0, 0}), 0.0f);
 }
 
 TEST(CubeEnvironment, AlphaDividesRadiance) {
@@ -72,11 +72,12 @@ TEST(CubeEnvironment, AlphaDividesRadiance) {
     cube.scene.environment.cube->intensity = 3.0f;
     cube.scene.environment.scale = 2.0f;
     const World world = compile(cube.scene);
-    const Rgb found = world.environment().radiance({0, 1, 0});
+    const Rgb found = world.environment().radiance(world.environment().light(), {0, 1, 0});
     EXPECT_NEAR(found.r, kHalf * 5.0f * 6.0f, 1e-3f);
     EXPECT_NEAR(found.g, 30.0f, 1e-3f);
     EXPECT_EQ(found.b, 0.0f);
-    EXPECT_TRUE(is_black(world.environment().radiance({-1, 0, 0}))) << "nothing can be divided by an alpha of 0";
+    EXPECT_TRUE(is_black(world.environment().radiance(world.environment().light(), {-1, 0, 0})))
+        << "nothing can be divided by an alpha of 0";
 }
 
 TEST(CubeEnvironment, TurnsWithItsTransform) {
@@ -90,9 +91,13 @@ TEST(CubeEnvironment, TurnsWithItsTransform) {
         rotation.rotate(Vec3f(random.next(), random.next(), random.next()) * 6.0f);
         cube.scene.environment.cube->to_world = rotation;
         const World world = compile(cube.scene);
-        EXPECT_NEAR(world.environment().radiance(transform_vector(rotation, {1, 0, 0})).g, 1.0f, 1e-5f);
-        EXPECT_NEAR(world.environment().radiance(transform_vector(rotation, {-1, 0, 0})).g, 0.0f, 1e-5f);
-        EXPECT_NEAR(world.environment().radiance(transform_vector(rotation, {0.1f, 0, 1})).g, 0.0f, 1e-5f);
+        EXPECT_NEAR(world.environment().radiance(world.environment().light(), transform_vector(rotation, {1, 0, 0})).g,
+                    1.0f, 1e-5f);
+        EXPECT_NEAR(world.environment().radiance(world.environment().light(), transform_vector(rotation, {-1, 0, 0})).g,
+                    0.0f, 1e-5f);
+        EXPECT_NEAR(
+            world.environment().radiance(world.environment().light(), transform_vector(rotation, {0.1f, 0, 1})).g, 0.0f,
+            1e-5f);
     }
 }
 
@@ -131,7 +136,8 @@ TEST(EnvironmentImage, InfinitiesAreBrightAndWhatIsNoNumberIsDark) {
     float brightest = 0.0f;
     for (int i = 0; i < 64; ++i) {
         const float angle = static_cast<float>(i) * kPi / 32.0f;
-        const Rgb seen = world.environment().radiance(normalize(Vec3f(std::cos(angle), 1.0f, std::sin(angle))));
+        const Rgb seen = world.environment().radiance(world.environment().light(),
+                                                      normalize(Vec3f(std::cos(angle), 1.0f, std::sin(angle))));
         EXPECT_TRUE(is_finite(seen));
         brightest = std::max(brightest, seen.r);
     }

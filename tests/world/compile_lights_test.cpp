@@ -82,7 +82,7 @@ TEST(CompileLights, RadiometricUnitsDivideLampsOnly) {
     scene.environment.enabled = true;
     add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, emissive(Rgb(3.0f))));
     const World world = compile(std::move(scene));
-    EXPECT_EQ(world.environment().radiance({0, 1, 0}), Rgb(1.0f));
+    EXPECT_EQ(world.environment().radiance(world.environment().light(), {0, 1, 0}), Rgb(1.0f));
     Ray ray;
     ray.direction = {0, 0, -1};
     const Hit hit = intersect(world, ray);
@@ -176,21 +176,22 @@ TEST(CompileLights, ConstantEnvironmentsAreColourTimesScale) {
     scene.environment.scale = 4.0f;
     const World world = compile(std::move(scene));
     ASSERT_TRUE(world.traits().has_environment);
-    EXPECT_EQ(world.environment().radiance({0, 1, 0}), Rgb(4.0f, 2.0f, 1.0f));
-    EXPECT_NEAR(world.environment().emission_pdf_solid_angle({0, 1, 0}), 1.0f / (4.0f * kPi), 1e-6f);
+    EXPECT_EQ(world.environment().radiance(world.environment().light(), {0, 1, 0}), Rgb(4.0f, 2.0f, 1.0f));
+    EXPECT_NEAR(world.environment().emission_pdf_solid_angle(world.environment().light(), {0, 1, 0}),
+                1.0f / (4.0f * kPi), 1e-6f);
     // Beside samples of the BSDF it needs none of its own.
     EXPECT_TRUE(world.traits().has_lights);
     EXPECT_FALSE(world.traits().has_sampled_lights);
-    EXPECT_EQ(world.environment().pdf_solid_angle({0, 1, 0}), 0.0f);
+    EXPECT_EQ(world.environment().pdf_solid_angle(world.environment().light(), {0, 1, 0}), 0.0f);
     EXPECT_EQ(world.environment().sample_all(Vec3f(0.0f), {0.2f, 0.7f}).radiance, Rgb(4.0f, 2.0f, 1.0f));
 }
 
 TEST(CompileLights, DisabledEnvironmentsAreNone) {
     const World world = compile(empty_scene());
     EXPECT_FALSE(world.traits().has_environment);
-    EXPECT_TRUE(is_black(world.environment().radiance({0, 1, 0})));
-    EXPECT_EQ(world.environment().pdf_solid_angle({0, 1, 0}), 0.0f);
-    EXPECT_EQ(world.environment().emission_pdf_solid_angle({0, 1, 0}), 0.0f);
+    EXPECT_TRUE(is_black(world.environment().radiance(world.environment().light(), {0, 1, 0})));
+    EXPECT_EQ(world.environment().pdf_solid_angle(world.environment().light(), {0, 1, 0}), 0.0f);
+    EXPECT_EQ(world.environment().emission_pdf_solid_angle(world.environment().light(), {0, 1, 0}), 0.0f);
 }
 
 TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {
@@ -208,16 +209,16 @@ TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {
     const Vec3f lit = normalize(Vec3f(1, 0, -1));
     {
         const World world = compile(scene);
-        EXPECT_NEAR(world.environment().radiance(lit).r, 6.0f, 1e-4f);
-        EXPECT_NEAR(world.environment().radiance(lit).g, 3.0f, 1e-4f);
-        EXPECT_EQ(world.environment().radiance(lit).b, 0.0f);
-        EXPECT_NEAR(world.environment().radiance(-lit).r, 0.0f, 1e-4f);
+        EXPECT_NEAR(world.environment().radiance(world.environment().light(), lit).r, 6.0f, 1e-4f);
+        EXPECT_NEAR(world.environment().radiance(world.environment().light(), lit).g, 3.0f, 1e-4f);
+        EXPECT_EQ(world.environment().radiance(world.environment().light(), lit).b, 0.0f);
+        EXPECT_NEAR(world.environment().radiance(world.environment().light(), -lit).r, 0.0f, 1e-4f);
     }
     // A quarter turn counter-clockwise seen from above takes -Z to -X, and +X to -Z.
     scene.environment.rotation = kPi / 2.0f;
     const World world = compile(scene);
-    EXPECT_NEAR(world.environment().radiance(normalize(Vec3f(-1, 0, -1))).r, 6.0f, 1e-4f);
-    EXPECT_NEAR(world.environment().radiance(lit).r, 0.0f, 1e-4f);
+    EXPECT_NEAR(world.environment().radiance(world.environment().light(), normalize(Vec3f(-1, 0, -1))).r, 6.0f, 1e-4f);
+    EXPECT_NEAR(world.environment().radiance(world.environment().light(), lit).r, 0.0f, 1e-4f);
     std::filesystem::remove(file);
     EXPECT_THROW((void)compile(scene), SceneError);
 }
@@ -236,8 +237,8 @@ TEST(CompileLights, RadianceImagesAreEnvironmentsToo) {
     scene.environment.scale = 0.5f;
     scene.environment.rotation = kPi;
     const World world = compile(std::move(scene));
-    EXPECT_NEAR(world.environment().radiance(normalize(Vec3f(-1, 0, 1))).g, 4.0f, 0.05f);
-    EXPECT_NEAR(world.environment().radiance(normalize(Vec3f(1, 0, -1))).g, 0.0f, 1e-4f);
+    EXPECT_NEAR(world.environment().radiance(world.environment().light(), normalize(Vec3f(-1, 0, 1))).g, 4.0f, 0.05f);
+    EXPECT_NEAR(world.environment().radiance(world.environment().light(), normalize(Vec3f(1, 0, -1))).g, 0.0f, 1e-4f);
     std::filesystem::remove(file);
 }
 

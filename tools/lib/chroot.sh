@@ -41,8 +41,9 @@ open_root() {
 }
 
 # in_root DIRECTORY COMMAND...: runs it there in $root with an environment as on a fresh machine. Mounts and processes
-# live in namespaces of their own, so that they end with the command, however it ends.
-running=''
+# live in namespaces of their own, so that they end with the command, however it ends. Each of $root_binds, FROM:TO, is
+# a folder of this system that is there, too.
+running='' root_binds=()
 in_root() {
     local environment=(HOME=/root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
     local name directory=$1
@@ -53,15 +54,20 @@ in_root() {
     # In the background, because bash runs its traps at once in `wait`, but not while it runs a command in the foreground.
     # shellcheck disable=SC2016  # expanded by the inner shell
     unshare --mount --pid --fork --kill-child --propagation private bash -euc '
-        root=$1 archives=$2
-        shift 2
+        root=$1 archives=$2 binds=$3
+        shift 3
         mount -t proc proc "$root/proc"
         mount -t sysfs -o ro sysfs "$root/sys"
         mkdir -p "$root/dev/shm"
         mount -t tmpfs tmpfs "$root/dev/shm"
         mount --bind "$archives" "$root/var/cache/apt/archives"
+        while IFS=: read -r from to; do
+            [[ -n $from ]] || continue
+            mkdir -p "$root$to"
+            mount --bind "$from" "$root$to"
+        done <<<"$binds"
         exec chroot "$root" env -i "$@"' \
-        in_root "$root" "$archives" \
+        in_root "$root" "$archives" "$(printf '%s\n' "${root_binds[@]}")" \
         "${environment[@]}" bash -c "cd $directory && exec \"\$@\"" in_directory "$@" &
     running=$!
     local outcome=0

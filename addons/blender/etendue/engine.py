@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy
 
 from . import passes, scene_settings
 from .child import Progress, run
@@ -131,19 +132,24 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
     def show(self, exr: Exr, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
         """Hands all passes over."""
         asked = passes.wanted(view_layer)
+        given = {layer: {item.name: item.pass_index for item in items if item.pass_index != 0}
+                 for layer, items in (("object_id", bpy.data.objects), ("material_id", bpy.data.materials))}
         for item in asked:
             self.add_pass(item.name, len(item.channels), item.channels, layer=view_layer.name)
         result = self.begin_result(0, 0, exr.width, exr.height, layer=view_layer.name)
-        layer = result.layers[0]
-        there = {item.name: item for item in layer.passes}
-        there["Combined"].rect.foreach_set(combined(exr, scene.render.film_transparent).reshape(-1, 4))
-        for item in asked:
-            values = pixels_of(exr, item)
-            if values is None:
-                self.report({"WARNING"}, f"the program has not written the pass {item.name}")
-            elif item.name in there:
-                there[item.name].rect.foreach_set(values.reshape(-1, len(item.channels)))
-        self.end_result(result)
+        done = False
+        try:
+            there = {item.name: item for item in result.layers[0].passes}
+            fill(there["Combined"], combined(exr, scene.render.film_transparent))
+            for item in asked:
+                values = pixels_of(exr, item, given)
+                if values is None:
+                    self.report({"WARNING"}, f"the program has not written the pass {item.name}")
+                elif item.name in there:
+                    fill(there[item.name], values)
+            done = True
+        finally:
+            self.end_result(result, cancel=not done)
         self.add_mattes(self.get_result(), exr, view_layer)
 
     @staticmethod
@@ -157,6 +163,14 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
             for field, value in (("name", full), ("hash", "MurmurHash3_32"), ("conversion", "uint32_to_float32"),
                                  ("manifest", json.dumps(json.loads(manifest), separators=(",", ":")))):
                 result.stamp_data_add_field(f"cryptomatte/{passes.matte_key(full)}/{field}", value)
+
+
+def fill(item: bpy.types.RenderPass, values: numpy.ndarray) -> None:
+    """Gives a pass its pixels. Blender 3.4 counts pixels, 4.3 counts numbers."""
+    try:
+        item.rect.foreach_set(values.ravel())
+    except TypeError:
+        item.rect.foreach_set(values.reshape(-1, values.shape[-1]))
 
 
 def register() -> None:

@@ -306,13 +306,18 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     lamps = [item for name, item in items.items() if item.type == "LIGHT" and name in single]
     written = scene_settings.write(evaluated, lamps, materials,
                                    passes.sources(passes.wanted(view_layer), scene.etendue.denoise),
-                                   (times[0], times[-1]) if motions else None, camera)
+                                   (times[0], times[-1]) if motions else None, camera, bpy.app.version)
     document, binary = glb.read_glb(file)
     glb.ensure_camera(document, camera.name)
     glb.give_nodes_their_own(document)
+    if camera.data.type == "ORTHO":
+        # The exporter takes the scale to be that of the longer side, whatever the sensor fits.
+        glb.set_orthographic(document, camera.name,
+                             scene_settings.orthographic_halves(camera.data, *scene_settings.view_size(evaluated.render)))
     glb.leave_out(document, items)
     glb.set_spots(document, {item.name: scene_settings.spot_cones(item.data) for item in items.values()
                              if item.type == "LIGHT" and item.data.type == "SPOT"})
+    glb.give_all_materials(document)
     glb.blend(document, written.blended)
     hidden = {name for name, item in items.items() if item.type in SURFACES and not getattr(item, "visible_camera", True)}
     add_hidden_materials(written.document, glb.hide_from_camera(document, hidden))

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy
 
-MAGIC, MULTIPART, DEEP, TILED = 20000630, 0x1000, 0x800, 0x200
+from .exr_header import MAGIC, channel_kinds, read_attributes
+
 TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
 ROWS = {0: 1, 2: 1, 3: 16}  # of a chunk, by compression: none, ZIPS, ZIP
 
@@ -32,20 +33,13 @@ class Exr:
 def read_exr(path: Path) -> Exr:
     """ValueError if the file is of another kind."""
     data = path.read_bytes()
-    magic, version = struct.unpack_from("<II", data)
-    if magic != MAGIC or version & (MULTIPART | DEEP | TILED):
-        raise ValueError(f"{path} is no EXR of one part with scan lines")
-    attributes, at = {}, 8
-    while data[at]:
-        end = data.index(0, at)
-        kind_end = data.index(0, end + 1)
-        size, = struct.unpack_from("<i", data, kind_end + 1)
-        attributes[data[at:end].decode()] = data[kind_end + 5:kind_end + 5 + size]
-        at = kind_end + 5 + size
-    at += 1
+    try:
+        attributes, at = read_attributes(data)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
     x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])
     width, height = x1 - x0 + 1, y1 - y0 + 1
-    kinds = channel_types(attributes["channels"])
+    kinds = [(name, TYPES[kind]) for name, kind in channel_kinds(attributes["channels"])]
     compression = attributes["compression"][0]
     if compression not in ROWS:
         raise ValueError(f"{path} is compressed otherwise than by ZIP")
@@ -64,15 +58,6 @@ def read_exr(path: Path) -> Exr:
             channels[name][top:top + rows] = numpy.ascontiguousarray(lines[:, begin:end]).view(kind)
             begin = end
     return Exr(x0, y0, width, height, channels, attributes)
-
-
-def channel_types(data: bytes) -> list[tuple[str, numpy.dtype]]:
-    result, at = [], 0
-    while data[at]:
-        end = data.index(0, at)
-        result.append((data[at:end].decode(), TYPES[struct.unpack_from("<i", data, end + 1)[0]]))
-        at = end + 17
-    return result
 
 
 def inflated(block: bytes, size: int) -> bytes:

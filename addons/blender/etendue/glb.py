@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
-FLOAT, LAMPS = 5126, "KHR_lights_punctual"
+FLOAT, LAMPS, SPECULAR = 5126, "KHR_lights_punctual", "KHR_materials_specular"
+UNNAMED = "without a material"
 
 Document = dict[str, Any]
 # A motion holds translations, rotations (x, y, z, w) and scales of a node, one for each moment.
@@ -102,6 +103,21 @@ def blend(document: Document, materials: Collection[str]) -> None:
             material["alphaMode"] = "BLEND"
 
 
+def give_all_materials(document: Document) -> None:
+    """Gives what has no material the one that Blender shows then: matte, of an albedo of 0.8. That of glTF is white metal."""
+    without = [primitive for mesh in document.get("meshes", []) for primitive in mesh["primitives"] if "material" not in primitive]
+    if not without:
+        return
+    materials = document.setdefault("materials", [])
+    materials.append({"name": UNNAMED, "doubleSided": True, "extensions": {SPECULAR: {"specularFactor": 0.0}},
+                      "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1.0], "metallicFactor": 0.0}})
+    used = document.setdefault("extensionsUsed", [])
+    if SPECULAR not in used:
+        used.append(SPECULAR)
+    for primitive in without:
+        primitive["material"] = len(materials) - 1
+
+
 def add_extras(document: Document, extras: Mapping[str, Mapping[str, Any]]) -> None:
     """Adds to the `etendue` of the extras of nodes, by their names."""
     for node in document.get("nodes", []):
@@ -172,6 +188,13 @@ def hide_from_camera(document: Document, names: Collection[str]) -> dict[str, st
     if not materials:
         del document["materials"]
     return origins
+
+
+def set_orthographic(document: Document, name: str, halves: tuple[float, float]) -> None:
+    """Gives the orthographic camera of the node of this name what it sees: half the width and half the height, metres."""
+    for node in document.get("nodes", []):
+        if node.get("name") == name and "camera" in node:
+            document["cameras"][node["camera"]]["orthographic"] |= {"xmag": halves[0], "ymag": halves[1]}
 
 
 def ensure_camera(document: Document, name: str) -> None:

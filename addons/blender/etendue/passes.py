@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-# Changes of the numbers on their way: none; Y up to Z up; over the diffuse albedo; ones; V up.
-AS_IS, TO_Z_UP, OVER_ALBEDO, WHITE, UV = "as is", "to z up", "over albedo", "white", "uv"
+# Changes of the numbers on their way: none; Y up to Z up; over the diffuse albedo; ones; V up; Blender's pass index in place
+# of the program's number.
+AS_IS, TO_Z_UP, OVER_ALBEDO, WHITE, UV, INDEX = "as is", "to z up", "over albedo", "white", "uv", "index"
 
 
 @dataclass(frozen=True)
@@ -31,9 +32,12 @@ class Pass:
 # Attribute of the view layer, pass. Diffuse light comes over its colour, as Blender's compositor has it.
 STANDARD = (
     ("use_pass_z", Pass("Depth", "Z", "VALUE", "depth")),
+    ("use_pass_mist", Pass("Mist", "Z", "VALUE", "mist")),
     ("use_pass_position", Pass("Position", "XYZ", "VECTOR", "P", change=TO_Z_UP)),
     ("use_pass_normal", Pass("Normal", "XYZ", "VECTOR", "N", change=TO_Z_UP)),
     ("use_pass_vector", Pass("Vector", "XYZW", "VECTOR", "vector")),
+    ("use_pass_object_index", Pass("IndexOB", "X", "VALUE", "object_id", change=INDEX)),
+    ("use_pass_material_index", Pass("IndexMA", "X", "VALUE", "material_id", change=INDEX)),
     ("use_pass_uv", Pass("UV", "UVA", "VECTOR", "uv", letters="UV", change=UV)),
     ("use_pass_diffuse_direct", Pass("DiffDir", "RGB", "COLOR", "diffuse_direct", change=OVER_ALBEDO)),
     ("use_pass_diffuse_indirect", Pass("DiffInd", "RGB", "COLOR", "diffuse_indirect", change=OVER_ALBEDO)),

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
+
 import numpy
 
 from .exr import Exr
-from .passes import AS_IS, OVER_ALBEDO, TO_Z_UP, UV, WHITE, Pass
+from .passes import AS_IS, INDEX, OVER_ALBEDO, TO_Z_UP, UV, WHITE, Pass
 
 
 def planes(exr: Exr, names: list[str]) -> numpy.ndarray | None:
@@ -25,13 +28,28 @@ def combined(exr: Exr, transparent: bool) -> numpy.ndarray:
     return result
 
 
-def pixels_of(exr: Exr, item: Pass) -> numpy.ndarray | None:
-    """The pixels of a pass, None if the file lacks its layer."""
+def indices(names: list[str], given: Mapping[str, int]) -> numpy.ndarray:
+    """Blender's pass index for each number of the program, 0 for none. What shares a name has the names above it before
+    its own, and slashes between them."""
+    def index(name: str) -> int:
+        while name not in given and "/" in name:
+            name = name.partition("/")[2]
+        return given.get(name, 0)
+
+    return numpy.array([0, *map(index, names)], numpy.float32)
+
+
+def pixels_of(exr: Exr, item: Pass, given: Mapping[str, Mapping[str, int]]) -> numpy.ndarray | None:
+    """The pixels of a pass, None if the file lacks its layer. `given` has the pass indices that are not 0, by layer and
+    name."""
     if item.change == WHITE:
         return numpy.ones((exr.height, exr.width, len(item.channels)), numpy.float32)
     result = planes(exr, item.names())
     if result is None or item.change == AS_IS:
         return result
+    if item.change == INDEX:
+        by_number = indices(json.loads(exr.text(f"etendue:names/{item.source}") or "[]"), given.get(item.source, {}))
+        return by_number[numpy.clip(result.astype(numpy.int64), 0, len(by_number) - 1)]
     if item.change == TO_Z_UP:
         return numpy.stack([result[..., 0], -result[..., 2], result[..., 1]], axis=-1)
     if item.change == UV:

@@ -91,8 +91,8 @@ def emission_of_nodes(light: Any) -> tuple[list[float], float]:
     return [1.0, 1.0, 1.0], 1.0
 
 
-def lamp(item: Any) -> Document:
-    """An entry of `lights`. The lamp stands at the node with its object's name, which the exporter leaves in any case."""
+def lamp(item: Any, version: Sequence[int]) -> Document:
+    """An entry of `lights`, for Blender's `version`. The lamp stands at the node with its object's name, which the exporter leaves in any case."""
     light = item.data
     tint, strength = emission_of_nodes(light)
     power = light.energy * strength * 2.0 ** getattr(light, "exposure", 0.0)
@@ -101,9 +101,9 @@ def lamp(item: Any) -> Document:
         return result | {"irradiance": power, "angle": min(light.angle, math.pi - 1e-3)}
     if light.type in ("POINT", "SPOT"):
         result["power"] = power
-        return result | ({"radius": light.shadow_soft_size, **seen(item)} if light.shadow_soft_size > 0.0 else {})
-    # Cycles' area lamps have a radiance of power / (4 area), Etendue's of power / (pi area).
-    result |= {"power": power * 0.25 * math.pi, **seen(item)}
+        return result | ({"radius": light.shadow_soft_size, **surface(item)} if light.shadow_soft_size > 0.0 else {})
+    # Etendue's area lamps have a radiance of power / (pi area), as Cycles' have; before Blender 4.0, it was power / (4 area).
+    result |= {"power": power if tuple(version) >= (4,) else power * 0.25 * math.pi, **surface(item)}
     if light.spread < math.pi:
         result["spread"] = max(light.spread, LEAST_SPREAD)
     if light.shape in ("SQUARE", "RECTANGLE"):
@@ -113,9 +113,9 @@ def lamp(item: Any) -> Document:
     return {"type": "disk", "width": light.size, "height": height, **result}
 
 
-def seen(item: Any) -> Document:
-    """Lamps are hidden from the camera by default, also in Cycles."""
-    return {} if getattr(item, "visible_camera", False) else {"visible_to_camera": False}
+def surface(item: Any) -> Document:
+    """What lamps with a size are for others. In Cycles they stop no light, and are hidden from the camera by default."""
+    return {"stops_light": False, **({} if getattr(item, "visible_camera", False) else {"visible_to_camera": False})}
 
 
 def spot_cones(light: Any) -> tuple[float, float]:
@@ -185,6 +185,11 @@ def world_is_visible(world: Any) -> bool:
     return getattr(getattr(world, "cycles_visibility", None), "camera", True)
 
 
+def mist(settings: Any) -> Document:
+    return {"start": settings.start, "depth": max(settings.depth, 1e-6),
+            "falloff": settings.falloff.lower().replace("_", "-")}
+
+
 def turn(texture: Any, written: Written) -> float:
     """Rotation about Z of the Mapping node before the texture."""
     mapping = source_of(texture.inputs["Vector"])
@@ -208,14 +213,28 @@ def camera_setting(camera: Any, name: str, default: Any = None) -> Any:
     return getattr(getattr(camera, "cycles", None), name, default)
 
 
+def view_size(render: Any) -> tuple[float, float]:
+    """Width and height of the image as it is shown, in any unit."""
+    width, height = image_size(render)
+    return width * render.pixel_aspect_x, height * render.pixel_aspect_y
+
+
+def fitted_side(camera: Any, width: float, height: float) -> float:
+    """The side of the image, of these two, that the sensor, an orthographic scale and shifts are meant for."""
+    by_width = camera.sensor_fit == "HORIZONTAL" or (camera.sensor_fit == "AUTO" and width >= height)
+    return width if by_width else height
+
+
+def orthographic_halves(camera: Any, width: float, height: float) -> tuple[float, float]:
+    """Half the width and half the height that an orthographic camera sees, metres."""
+    scale = 0.5 * camera.ortho_scale / fitted_side(camera, width, height)
+    return scale * width, scale * height
+
+
 def sensor_of_longer_side(camera: Any, width: float, height: float) -> float:
     """Millimetres of the longer side of the image on the sensor that the focal length is meant for."""
-    longer = max(width, height)
-    if camera.sensor_fit == "AUTO":
-        return camera.sensor_width
-    if camera.sensor_fit == "HORIZONTAL":
-        return camera.sensor_width * longer / width
-    return camera.sensor_height * longer / height
+    sensor = camera.sensor_height if camera.sensor_fit == "VERTICAL" else camera.sensor_width
+    return sensor * max(width, height) / fitted_side(camera, width, height)
 
 
 def focus_distance(camera: Any, matrix: Sequence[Sequence[float]]) -> float:
@@ -240,11 +259,12 @@ def lens(camera: Any, matrix: Sequence[Sequence[float]], width: float, height: f
     return result | {"f_stop": stop, "sensor_width": sensor_of_longer_side(camera, width, height)}
 
 
-def camera_settings(camera: Any, written: Written) -> Document:
-    """The entry of `cameras`: what glTF has no place for."""
+def camera_settings(camera: Any, written: Written, width: float, height: float) -> Document:
+    """The entry of `cameras` for a view of this size: what glTF has no place for."""
     result: Document = {}
     if camera.shift_x or camera.shift_y:
-        result["shift"] = [camera.shift_x, camera.shift_y]
+        share = fitted_side(camera, width, height) / max(width, height)
+        result["shift"] = [camera.shift_x * share, camera.shift_y * share]
     result |= {"clip_start": camera.clip_start, "clip_end": camera.clip_end}
     if camera.dof.use_dof and camera.type != "PANO":
         if camera.dof.aperture_blades >= 3:
@@ -284,7 +304,7 @@ def material(material: Any, closed: bool, written: Written) -> Document:
     """The entry of `materials`: what the exporter drops of the Principled BSDF, and simple shaders in its place. `closed`:
     all meshes that have it bound a volume."""
     if not material.use_nodes or material.node_tree is None:
-        return {}
+        return {"diffuse": {"albedo": [min(max(channel, 0.0), 1.0) for channel in list(material.diffuse_color)[:3]]}}
     output = active_output(material.node_tree, "OUTPUT_MATERIAL")
     shader = source_of(output.inputs["Surface"]) if output is not None else None
     if output is not None and source_of(output.inputs["Displacement"]) is not None:
@@ -335,6 +355,10 @@ def principled(material: Any, shader: Any, closed: bool, written: Written) -> Do
         ior = value_of(shader, "IOR", default=1.45)
         if ior is not None:
             result["ior"] = max(ior, 1.0)
+        color = value_of(shader, "Base Color")
+        # Since Blender 4.0, light has the colour once it has passed two of its surfaces.
+        if closed and transmission == 1.0 and color and shader.inputs.get("Transmission Weight") is not None:
+            result["base_color"] = [math.sqrt(min(max(channel, 0.0), 1.0)) for channel in color]
     coat = value_of(shader, "Clearcoat", default=0.0)
     if coat:
         result["clearcoat"] = 0.25 * min(coat, 1.0)  # which is what Blender before 4.0 shows of it
@@ -403,9 +427,9 @@ def subsurface(material: Any, shader: Any, closed: bool, written: Written) -> Do
 # --- all of it
 
 def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, bool]], aovs: Sequence[str],
-          moving: tuple[float, float] | None = None, camera: Any = None) -> Written:
-    """render.json for a scene: `objects` are those that are rendered, `materials` theirs, each with whether all meshes
-    that have it are closed, `moving` the seconds in which the shutter is open."""
+          moving: tuple[float, float] | None = None, camera: Any = None, version: Sequence[int] = (3, 4, 0)) -> Written:
+    """render.json for a scene of Blender's `version`: `objects` are those that are rendered, `materials` theirs, each with
+    whether all meshes that have it are closed, `moving` the seconds in which the shutter is open."""
     written = Written()
     render, settings = scene.render, scene.etendue
     camera = camera or scene.camera
@@ -429,16 +453,17 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
         document["robust"] = f"mon:{settings.robust | 1}"
     if aovs:
         document["aovs"] = list(aovs)
+    if "mist" in aovs and scene.world is not None:
+        document["mist"] = mist(scene.world.mist_settings)
     if moving is not None:
         document |= {"time_code": 0.0, "shutter": list(moving)}
     matrix = camera.matrix_world
-    aspect = (width * render.pixel_aspect_x, height * render.pixel_aspect_y)
-    document |= lens(camera.data, matrix, *aspect)
-    document["cameras"] = {camera.name: camera_settings(camera.data, written)}
+    document |= lens(camera.data, matrix, *view_size(render))
+    document["cameras"] = {camera.name: camera_settings(camera.data, written, *view_size(render))}
     given = environment(scene.world, render.film_transparent, written)
     if given is not None:
         document["environment"] = given
-    lights = {item.name: lamp(item) for item in objects if item.type == "LIGHT"}
+    lights = {item.name: lamp(item, version) for item in objects if item.type == "LIGHT"}
     if lights:
         document["lights"] = lights
     entries = {item.name: material(item, closed, written) for item, closed in materials}

@@ -70,16 +70,18 @@ void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point, co
 void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
     const World& world = parts_.job.world;
     const bool is_direct = state.index == kDirectlySeen;
-    if (is_direct && !(world.traits().has_environment && world.traits().environment_visible_to_camera)) {
-        parts_.alpha[state.slot] = 0.0f;
-        return;
+    const std::span<const std::uint32_t> met = world.environment().met(is_direct);
+    if (is_direct && met.empty()) parts_.alpha[state.slot] = 0.0f;
+    if (state.edges < parts_.job.lengths.min_depth) return;
+    for (const std::uint32_t light : met) {
+        const Rgb radiance = world.environment().radiance(light, direction);
+        // What is black of an environment is met, too, and weighed.
+        if (light != world.environment().light() && is_black(radiance)) continue;
+        StrategySums sums;
+        if (!is_direct) sums = sums_from_afar(parts_.job.mis(), state.from, light, direction, state.departing);
+        add(state, radiance, sums, {.light = light, .direction = -direction, .is_reached_directly = state.is_direct},
+            parts_.eye.vertices().words().light_source(world, light));
     }
-    if (!world.traits().has_environment || state.edges < parts_.job.lengths.min_depth) return;
-    StrategySums sums;
-    if (!is_direct) sums = sums_at_environment(parts_.job.mis(), state.from, direction, state.departing);
-    add(state, world.environment().radiance(direction), sums,
-        {.light = world.environment().light(), .direction = -direction, .is_reached_directly = state.is_direct},
-        parts_.eye.vertices().words().environment_source());
 }
 
 }  // namespace etendue

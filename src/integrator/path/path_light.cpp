@@ -161,7 +161,7 @@ void PathLight::evaluate(std::size_t k) {
 
 void PathLight::add_environment(const PathContext& context) {
     const World& world = context.world;
-    const bool is_shown = world.traits().has_environment && world.traits().environment_visible_to_camera;
+    const bool is_shown = !world.environment().met(true).empty();
     LaneList meeting;
     std::array<Vec3f, PathBlock::kSize> directions;
     for (const std::size_t k : block_.escaped) {
@@ -181,14 +181,34 @@ void PathLight::add_environment(const PathContext& context) {
     world.environment().look(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
     for (std::size_t m = 0; m < meeting.size(); ++m) {
         const std::size_t i = block_.first + meeting[m];
-        float weight = 1.0f;
-        if (const std::uint32_t samples = paths_.samples_of_met_light(context, i); samples > 0)
-            weight = met_light_weight(
-                paths_.pdf_solid_angle[i],
-                world.lights().probability(paths_.receiver(i), world.environment().light()) * met[m].pdf_solid_angle,
-                samples);
+        const float weight = weight_from_afar(context, i, world.environment().light(), met[m].pdf_solid_angle);
         add(i, met[m].radiance * weight, paths_.words.environment_source());
     }
+}
+
+void PathLight::add_suns(const PathContext& context) {
+    const World& world = context.world;
+    for (const std::uint32_t light : world.environment().met(false)) {
+        if (light == world.environment().light()) continue;
+        for (const std::size_t k : block_.escaped) {
+            const std::size_t i = block_.first + k;
+            const float pdf = world.environment().pdf_solid_angle(light, paths_.direction[i]);
+            if (!(pdf > 0.0f) || path_history::is_seen(paths_.history[i]) ||
+                paths_.edges(i) < context.settings.lengths.min_depth)
+                continue;
+            if (context.job.profile != nullptr) ++context.job.profile->use().bsdf_met_light;
+            add(i, world.environment().radiance(light, paths_.direction[i]) * weight_from_afar(context, i, light, pdf),
+                paths_.words.light_source(world, light));
+        }
+    }
+}
+
+float PathLight::weight_from_afar(const PathContext& context, std::size_t i, std::uint32_t light,
+                                  float pdf_solid_angle) const {
+    const std::uint32_t samples = paths_.samples_of_met_light(context, i);
+    if (samples == 0) return 1.0f;
+    return met_light_weight(paths_.pdf_solid_angle[i],
+                            context.world.lights().probability(paths_.receiver(i), light) * pdf_solid_angle, samples);
 }
 
 void PathLight::add_emission(const PathContext& context, std::size_t k) {

@@ -40,6 +40,8 @@ class PathLight {
 
     /// Adds the light of the environment to paths of the block that have left the scene.
     void add_environment(const PathContext& context);
+    /// Adds the light of suns to those of them that scatter or mirror it.
+    void add_suns(const PathContext& context);
     /// Adds the light of the surface that path `k` has met.
     void add_emission(const PathContext& context, std::size_t k);
     /// Adds `light` that path `i` of the wave has met.
@@ -59,6 +61,10 @@ class PathLight {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    /// Returns the weight of what path `i` has met of `light`, infinitely far away, whose samples pick its direction
+    /// with this density.
+    [[nodiscard]] float weight_from_afar(const PathContext& context, std::size_t i, std::uint32_t light,
+                                         float pdf_solid_angle) const;
     /// Returns what a light is chosen for at the surface of path `k`.
     [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
     // The sample of path `k`, from the lanes or to them.

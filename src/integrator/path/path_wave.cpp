@@ -119,6 +119,7 @@ void PathWave::shade_block(const PathContext& context, std::size_t first, std::s
     stamp(Stage::HitSetup);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
     light_.add_environment(context);
+    light_.add_suns(context);
     for (const std::size_t k : block_.on_emitter) light_.add_emission(context, k);
     stamp(Stage::Emission);
     places_.look_up_textures(context);

@@ -125,6 +125,7 @@ class LightChanges {
         bool is_left_out = false;
         float radius = 0.0f;
         bool visible_to_camera = true;
+        bool stops_light = true;
         SourceLocation location;
     };
 
@@ -201,11 +202,15 @@ class LightChanges {
             light.angle = change.angle.value_or(light.angle);
             softening.radius = change.radius.value_or(softening.radius);
             softening.visible_to_camera = change.visible_to_camera.value_or(softening.visible_to_camera);
+            softening.stops_light = change.stops_light.value_or(softening.stops_light);
             softening.location = change.location;
             if (softening.radius > 0.0f && light.profile)
                 report(change, at(change, "radius"), "a light with an IES profile shines from a point");
-            if (change.visible_to_camera && !(softening.radius > 0.0f))
+            if (softening.radius > 0.0f) continue;
+            if (change.visible_to_camera)
                 report(change, at(change, "visible_to_camera"), "a light without a radius is never seen");
+            if (change.stops_light)
+                report(change, at(change, "stops_light"), "a light without a radius stops no other light");
         }
     }
 
@@ -220,7 +225,9 @@ class LightChanges {
                    "a directional light has no position from which an IES profile could shine");
             refuse(change.radius.has_value(), "radius", "a directional light has an angle, but no radius");
             refuse(change.power.has_value(), "power", "a directional light has an irradiance, but no power");
-            refuse(change.visible_to_camera.has_value(), "visible_to_camera", "a directional light is never seen");
+            refuse(change.visible_to_camera.has_value(), "visible_to_camera",
+                   "a directional light is never seen directly");
+            refuse(change.stops_light.has_value(), "stops_light", "a directional light stops no other light");
         } else {
             refuse(change.angle.has_value(), "angle", "a light at a point has a radius, but no angle");
             refuse(change.irradiance.has_value(), "irradiance", "a light at a point has a power, but no irradiance");
@@ -285,7 +292,7 @@ class LightChanges {
             const Softening& softening = softening_[i];
             if (softening.is_left_out || !(softening.radius > 0.0f)) continue;
             const LightDesc light = scene_.lights[i];
-            add_soft(light, softening.radius, softening.visible_to_camera, node_of(light.node), softening.location);
+            add_soft(light, softening, node_of(light.node));
         }
         std::size_t next = 0;
         std::erase_if(scene_.lights, [&](const LightDesc&) {
@@ -295,16 +302,17 @@ class LightChanges {
     }
 
     /// Adds a sphere in place of a point, or a disk in place of a spot, with the intensity that `light` has.
-    void add_soft(const LightDesc& light, float radius, bool visible, std::uint32_t node, const SourceLocation& where) {
+    void add_soft(const LightDesc& light, const Softening& softening, std::uint32_t node) {
         const bool is_spot = light.type == LightType::Spot;
         SurfaceLamp lamp{.shape = is_spot ? LampShape::Disk : LampShape::Sphere,
                          .name = light.node.empty() ? light.name : light.node,
                          .data_name = light.name,
                          .node = node,
-                         .to_world = scaled(Vec3f(radius), light.to_world),
+                         .to_world = scaled(Vec3f(softening.radius), light.to_world),
                          .color = light.color,
-                         .visible_to_camera = visible,
-                         .location = where};
+                         .visible_to_camera = softening.visible_to_camera,
+                         .stops_light = softening.stops_light,
+                         .location = softening.location};
         const auto area = static_cast<float>(lamp_area(lamp.shape, lamp.to_world));
         const float intensity = light.intensity / lamp_units(scene_);
         // Of a convex surface a quarter is seen from each side, in the mean over all.
@@ -345,7 +353,12 @@ class LightChanges {
         light.location = lamp.location;
         apply_strength(lamp, profile_of(lamp), scene_, light);
         if (const float radius = lamp.radius.value_or(0.0f); radius > 0.0f)
-            add_soft(light, radius, lamp.visible_to_camera.value_or(true), added.node, lamp.location);
+            add_soft(light,
+                     {.radius = radius,
+                      .visible_to_camera = lamp.visible_to_camera.value_or(true),
+                      .stops_light = lamp.stops_light.value_or(true),
+                      .location = lamp.location},
+                     added.node);
         else
             scene_.lights.push_back(std::move(light));
     }
@@ -364,6 +377,7 @@ class LightChanges {
                          .to_world = scaled(size, added.to_world),
                          .color = change.color.value_or(Rgb(1.0f)),
                          .visible_to_camera = change.visible_to_camera.value_or(true),
+                         .stops_light = change.stops_light.value_or(true),
                          .location = change.location};
         const double area = lamp_area(shape, lamp.to_world);
         lamp.radiance =

@@ -122,7 +122,16 @@ void add_surface_lamp(const SurfaceLamp& lamp, SceneDesc& scene) {
     const auto last = [](const auto& things) { return static_cast<std::int32_t>(things.size()) - 1; };
     MaterialDesc& material = scene.materials.emplace_back();
     material.name = lamp.data_name;
-    material.override_model = DiffuseDesc{.albedo = Rgb(0.0f)};
+    if (lamp.stops_light) {
+        material.override_model = DiffuseDesc{.albedo = Rgb(0.0f)};
+    } else {
+        // A pane that reflects nothing: all integrators go on through it, and their shadow rays and connections, too.
+        material.metallic = 0.0f;
+        material.roughness = 0.0f;
+        material.ior = 1.0f;
+        material.specular = 0.0f;
+        material.transmission = 1.0f;
+    }
     material.beam = lamp.beam;
     material.visible_to_camera = lamp.visible_to_camera;
     material.location = lamp.location;

@@ -1,4 +1,5 @@
-// Lamps with a surface: rectangles, disks and spheres that shine, as meshes with a black material that emits.
+// Lamps with a surface: rectangles, disks and spheres that shine, as meshes with a black or a clear material that
+// emits.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -21,6 +22,7 @@ struct SurfaceLamp {
     float radiance = 0.0f;  ///< W/(m² sr), of a spot's beam that along the normal
     BeamDesc beam{};
     bool visible_to_camera = true;
+    bool stops_light = true;  ///< of others; what goes on through it takes up its light on the way
     SourceLocation location;
 };
 

@@ -64,6 +64,7 @@ constexpr LampMember kLampMembers[] = {
     {"inner_cone_angle", bit(LampKind::Spot)},
     {"outer_cone_angle", bit(LampKind::Spot)},
     {"visible_to_camera", kSurfaces | kAtPoint | kChange},
+    {"stops_light", kSurfaces | kAtPoint | kChange},
 };
 
 constexpr std::string_view kStrengths[] = {"power", "irradiance", "radiance", "intensity"};
@@ -112,6 +113,8 @@ void check_size(const LightOverride& light, JsonObject& object) {
     const bool is_point = light.kind == LampKind::Point || light.kind == LampKind::Spot;
     if (is_point && light.visible_to_camera && !(light.radius.value_or(0.0f) > 0.0f))
         refuse("visible_to_camera", "a light without a radius is never seen");
+    if (is_point && light.stops_light && !(light.radius.value_or(0.0f) > 0.0f))
+        refuse("stops_light", "a light without a radius stops no other light");
     if (light.inner_cone_angle > light.outer_cone_angle || !(light.outer_cone_angle > 0.0f))
         refuse(object.has("outer_cone_angle") ? "outer_cone_angle" : "inner_cone_angle",
                "the outer cone must be above 0, and no narrower than the inner one");
@@ -180,6 +183,7 @@ LightOverride read_light(const nlohmann::json& value, const SourceLocation& wher
     object.number("inner_cone_angle", kConeAngle, light.inner_cone_angle);
     object.number("outer_cone_angle", kConeAngle, light.outer_cone_angle);
     if (bool visible = true; object.boolean("visible_to_camera", visible)) light.visible_to_camera = visible;
+    if (bool stops = true; object.boolean("stops_light", stops)) light.stops_light = stops;
     object.boolean("enabled", light.enabled);
     read_place(object, light.place);
     const std::size_t errors = problems.error_count();

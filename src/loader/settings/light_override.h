@@ -44,6 +44,7 @@ struct LightOverride {
     float inner_cone_angle = 0.0f;    ///< as in LightDesc
     float outer_cone_angle = 0.785398163f;
     std::optional<bool> visible_to_camera;
+    std::optional<bool> stops_light;  ///< of others
     bool enabled = true;
     bool is_from_extras = false;  ///< of the scene file: errors are warnings
     SourceLocation location;

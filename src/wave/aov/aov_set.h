@@ -4,6 +4,7 @@
 #include "film/bucket_layers.h"
 #include "film/layers.h"
 #include "lightpath/automaton.h"
+#include "scene/aov_desc.h"
 #include "wave/aov/first_hit_value.h"
 #include "wave/aov/path_speller.h"
 #include "world/world.h"
@@ -43,6 +44,7 @@ struct AovSet {
     std::vector<FirstHitValue> values{};
     /// Lists the values of the first surface of a pixel's nearest sample, in the order of their channels.
     std::vector<FirstHitValue> nearest{};
+    MistSettings mist{};
     float frames_of_shutter = 0.0f;  ///< how many frames the shutter is open for; 0 if it is not
     std::vector<MatteIds> mattes{};  ///< one for each matte of the layout
 

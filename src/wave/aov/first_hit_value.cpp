@@ -24,6 +24,7 @@ constexpr std::array kTable{
     FirstHitEntry{FirstHitValue::MaterialId, "material_id", "X", true, true, 0.0f, "number of the material, from 1 on"},
     FirstHitEntry{FirstHitValue::Motion, "motion", "XY", true, true, 0.0f,
                   "pixels moved while the shutter is open, x right and y down"},
+    FirstHitEntry{FirstHitValue::Mist, "mist", "Z", false, false, 1.0f, "share that mist hides, by its distance"},
     FirstHitEntry{FirstHitValue::Vector, "vector", "XYZW", true, true, 0.0f,
                   "pixels to where it was a frame before, and from where it is a frame after, as Blender has them"},
 };

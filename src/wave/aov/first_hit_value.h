@@ -22,6 +22,7 @@ enum class FirstHitValue {
     ObjectId,    ///< index of the instance, from 1 on
     MaterialId,  ///< index of the material, from 1 on
     Motion,      ///< pixels by which the point moves on the film while the shutter is open, x right and y down
+    Mist,        ///< share of the surface that mist hides, [0, 1]
     Vector,      ///< pixels of x and y, right and up, from the point to itself a frame before, and from a frame after
 };
 
@@ -31,7 +32,7 @@ struct FirstHitEntry {
     std::string_view channels;  ///< a letter each
     bool is_nearest;            ///< true: the nearest sample's value; false: averaged
     bool is_float;              ///< too large or too fine for half floats
-    float background;           ///< value where there is no surface, if `is_nearest`
+    float background;           ///< value where there is no surface
     std::string_view summary;   ///< for --help
 };
 

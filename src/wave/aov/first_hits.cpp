@@ -74,6 +74,9 @@ class FirstHit {
                 const Vec2f way = first && last ? way_on_film(*first, *last) : Vec2f(0.0f, 0.0f);
                 return put({way.x, way.y});
             }
+            case FirstHitValue::Mist:
+                // The film's sums begin at the value of what is behind all surfaces.
+                return put({mist() - first_hit_entry(value).background});
             case FirstHitValue::Vector: {
                 const std::optional<Vec2f> first = position_on_film(0.0f);
                 const std::optional<Vec2f> middle = position_on_film(0.5f);
@@ -109,6 +112,27 @@ class FirstHit {
         const auto width = static_cast<float>(job_.full_width);
         if (world_.traits().film_wraps) way.x -= width * std::round(way.x / width);
         return way;
+    }
+
+    /// Returns the metres from the camera to the surface; the ray begins at its near plane.
+    [[nodiscard]] float distance() const {
+        const float depth = world_.camera().depth(point_.position, ray_.time);
+        const float on_ray = depth - world_.camera().depth(ray_.origin, ray_.time);
+        return on_ray > 0.0f ? hit_.t * depth / on_ray : hit_.t;
+    }
+    /// Returns the share of the surface that mist hides.
+    [[nodiscard]] float mist() const {
+        const MistSettings& mist = job_.aovs->mist;
+        const float share = std::clamp((distance() - mist.start) / mist.depth, 0.0f, 1.0f);
+        switch (mist.falloff) {
+            case MistFalloff::Quadratic:
+                return share * share;
+            case MistFalloff::Linear:
+                return share;
+            case MistFalloff::InverseQuadratic:
+                return std::sqrt(share);
+        }
+        return share;
     }
 
     const Albedo& albedo() {

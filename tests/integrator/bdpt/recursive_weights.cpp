@@ -151,7 +151,7 @@ class GivenPath {
             emission.sample.pdf_position_area = pdf;
             if (can_be_hit())
                 emission.sample.pdf_direction_solid_angle =
-                    world.environment().emission_pdf_solid_angle(-end.direction);
+                    world.environment().emission_pdf_solid_angle(end.light, -end.direction);
         } else {
             emission.sample.pdf_direction_solid_angle = pdf;
             if (can_be_hit()) emission.sample.pdf_position_area = world.emitters().pdf_area(end.light);
@@ -170,7 +170,11 @@ class GivenPath {
         chosen.sample.cos_light = end.cos_light;
         chosen.sample.triangle = end.triangle;
         chosen.sample.is_delta = !can_be_hit();
-        if (at_infinity()) return chosen;
+        if (at_infinity()) {
+            chosen.sample.pdf_solid_angle =
+                chosen.expected_samples * world.environment().pdf_solid_angle(end.light, chosen.sample.wi);
+            return chosen;
+        }
         const float squared = length_squared(end.position - position);
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
@@ -186,7 +190,7 @@ class GivenPath {
         const Vec3f direction = -path_.end.direction;
         DepartingDensities departing = eye_.departing.front();
         departing.is_connectible = departing.is_connectible && is_direct(0);
-        if (at_infinity()) return sums_at_environment(job_.mis(), from, direction, departing).weight();
+        if (at_infinity()) return sums_from_afar(job_.mis(), from, path_.end.light, direction, departing).weight();
         const SubpathDensities arrived =
             departing.arrive(job_.raised, static_cast<double>(length_squared(path_.end.position - from)),
                              std::abs(static_cast<double>(path_.end.cos_light)));

@@ -47,8 +47,9 @@ class Path {
             const float gain = s == 1 ? world.lights().gain(end_.light, end_.triangle, inner_.front()->position) : 1.0f;
             return chosen * static_cast<double>(world.emitters().pdf_area(end_.light) * gain);
         }
-        return chosen * static_cast<double>(s == 1 ? world.environment().pdf_solid_angle(-end_.direction)
-                                                   : world.environment().emission_pdf_solid_angle(-end_.direction));
+        return chosen *
+               static_cast<double>(s == 1 ? world.environment().pdf_solid_angle(end_.light, -end_.direction)
+                                          : world.environment().emission_pdf_solid_angle(end_.light, -end_.direction));
     }
 
     /// Per area, vertex `i` > 0 from the light's side. Deltas have their share of `delta` instead of a density.

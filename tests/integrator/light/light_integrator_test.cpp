@@ -25,6 +25,22 @@ Rgb sum_of(const std::vector<Rgb>& pixels) {
     return sum;
 }
 
+// What falls beyond one edge of the film falls into the pixels at the other, as far as the filter reaches: without
+// that, a tenth of their light would be missing. Of 65,536 light paths each sees a lamp around, and five deviations of
+// the mean of 32 pixels are below 4%.
+TEST(LightIntegrator, APanoramaHasNoSeam) {
+    SceneDesc scene;
+    add(scene, sphere({0.0f, 0.0f, 0.0f}, 1.0f, 3, Facing::Inwards), emitter(1.0f));
+    look(scene, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f});
+    scene.cameras[0].type = CameraType::Equirectangular;
+    const std::vector<Rgb> pixels = render_pixels(scene, *make_integrator("light", {}), SampleSequence::Sobol, 256, 1,
+                                                  "Linear Rec.709 (sRGB)", FilterShape::BlackmanHarris);
+    Rgb at_seam;
+    for (std::size_t row = 0; row < kImageSide; ++row)
+        at_seam += (pixels[row * kImageSide] + pixels[(row + 1) * kImageSide - 1]) * (0.5f / kImageSide);
+    EXPECT_NEAR(at_seam.g, 1.0f, 0.04f);
+}
+
 /// A body that reflects nothing, of which a quarter of the light passes one metre.
 MaterialDesc absorbing_air() {
     MaterialDesc m;

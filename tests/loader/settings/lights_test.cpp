@@ -154,6 +154,24 @@ TEST(Lamps, PointsAndSpotsKeepTheirIntensityAsSurfaces) {
     EXPECT_NEAR(Added(watts.scene).power() / (4.0 * kPiD) * 683.002, 10.0, 1e-3);
 }
 
+TEST(Lamps, ThoseThatStopNoLightAreClear) {
+    for (const char* lamps : {R"({"lamp": {"radius": 0.5, "stops_light": false}})",
+                              R"({"Area": {"type": "disk", "power": 1, "stops_light": false}})",
+                              R"({"a": {"type": "point", "power": 1, "position": [0, 0, 0], "radius": 1,
+                                  "stops_light": false}})"}) {
+        const LoadedScene loaded = load_lamps(lamps);
+        ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        const Added lamp(loaded.scene);
+        EXPECT_TRUE(std::holds_alternative<std::monostate>(lamp.material.override_model)) << lamps;
+        EXPECT_EQ(lamp.material.transmission, 1.0f) << lamps;
+        EXPECT_EQ(lamp.material.specular, 0.0f) << lamps;
+        EXPECT_EQ(lamp.material.roughness, 0.0f) << lamps;
+        EXPECT_GT(lamp.radiance, 0.0) << lamps;
+    }
+    const LoadedScene usual = load_lamps(R"({"lamp": {"radius": 0.5}})");
+    EXPECT_EQ(Added(usual.scene).material.transmission, 0.0f);
+}
+
 TEST(Lamps, SunsHaveAnAngle) {
     const LoadedScene changed = load_lamps(R"({"sun": {"angle": 0.12}})");
     ASSERT_FALSE(changed.problems.has_errors()) << listing(changed.problems);
@@ -190,6 +208,8 @@ TEST(Lamps, WhatTheyCannotBeIsSaid) {
     expect(R"({"lamp": {"angle": 1}})", "no angle", "/lights/lamp/angle");
     expect(R"({"lamp": {"irradiance": 1}})", "no irradiance", "/lights/lamp/irradiance");
     expect(R"({"lamp": {"visible_to_camera": true}})", "never seen", "/lights/lamp/visible_to_camera");
+    expect(R"({"lamp": {"stops_light": false}})", "stops no other light", "/lights/lamp/stops_light");
+    expect(R"({"sun": {"stops_light": false}})", "stops no other light", "/lights/sun/stops_light");
     expect(R"({"sun": {"radius": 1}})", "no radius", "/lights/sun/radius");
     expect(R"({"sun": {"power": 1}})", "no power", "/lights/sun/power");
     expect(R"({"sun": {"visible_to_camera": false}})", "never seen", "/lights/sun/visible_to_camera");

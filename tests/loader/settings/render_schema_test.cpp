@@ -105,7 +105,7 @@ const char* const kGood[] = {
     R"({"materials": {"a": {"emission": {"color": [0, 5, 1], "strength": 100}}, "b": {"diffuse": {}, "emission": {}}}})",
     R"({"lights": {"a": {"color": [1, 2, 3], "intensity": 0, "scale": 2, "enabled": false}, "b": {"ies": "x.ies"}}})",
     R"({"lights": {"a": {"type": "rectangle", "width": 2, "height": 1, "power": 5, "spread": 3.141592653589793},
-        "b": {"type": "disk", "node": "n", "radius": 1, "radiance": 2, "visible_to_camera": false},
+        "b": {"type": "disk", "node": "n", "radius": 1, "radiance": 2, "visible_to_camera": false, "stops_light": true},
         "c": {"type": "disk", "width": 1, "height": 2, "power": 1, "position": [0, 1, 2], "rotation": [0, 0, 0, 1]},
         "d": {"type": "sphere", "power": 1, "position": [0, 1, 2]}, "e": {"type": "sun", "irradiance": 3, "angle": 0.1},
         "f": {"type": "point", "power": 1, "radius": 0.1, "position": [0, 1, 2], "look_at": [0, 0, 0], "up": [0, 0, 1]},
@@ -273,6 +273,7 @@ const char* const kBad[] = {
     R"({"lights": {"a": {"type": "sun", "irradiance": 1, "angle": 3.2}}})",
     R"({"lights": {"a": {"type": "point", "power": 1, "rotation": [0, 0, 1]}}})",
     R"({"lights": {"a": {"visible_to_camera": 1}}})",
+    R"({"lights": {"a": {"stops_light": 1}}})",
     R"({"materials": {"a": {"visible_to_camera": 0}}})",
     R"({"lights": 3})",
 };

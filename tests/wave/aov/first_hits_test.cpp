@@ -113,6 +113,36 @@ TEST(FirstHits, NormalsFaceTheEyeAndAlbedosAreThoseOfTheMaterials) {
     EXPECT_GT(scattering, room.window.area() / 2);
 }
 
+TEST(FirstHits, MistGrowsWithTheDistanceFromTheCamera) {
+    AgreementCase room = small_room("LampDiffuse", 1);
+    const Vec3f eye = agreement_world(room).camera().generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, 0.0f).origin;
+    // Rays then begin at the near plane.
+    room.make = [make = room.make](SceneDesc& scene) {
+        make(scene);
+        scene.cameras[0].clip.start = 0.2f;
+    };
+    const World world = agreement_world(room);
+    for (const MistFalloff falloff : {MistFalloff::Quadratic, MistFalloff::Linear, MistFalloff::InverseQuadratic}) {
+        const auto aovs = std::make_shared<AovSet>(*layers_of({FirstHitValue::Mist}, {FirstHitValue::Position}));
+        aovs->mist = {.start = 2.5f, .depth = 1.0f, .falloff = falloff};
+        const Film film = render_layers(world, "path", room, aovs, 1).film;
+        // Sums begin where all is mist.
+        const std::vector<float> mist = film.resolve_values(0, 1);
+        const std::vector<float> positions = film.resolve_nearest(0, 3, 1e9f);
+        std::size_t between = 0;
+        for (std::size_t p = 0; p < room.window.area(); ++p) {
+            const Vec3f position(positions[3 * p], positions[3 * p + 1], positions[3 * p + 2]);
+            const float share = std::clamp((length(position - eye) - 2.5f) / 1.0f, 0.0f, 1.0f);
+            const float expected = falloff == MistFalloff::Quadratic ? share * share
+                                   : falloff == MistFalloff::Linear  ? share
+                                                                     : std::sqrt(share);
+            EXPECT_NEAR(1.0f + mist[p], expected, 2e-3f);
+            between += share > 0.1f && share < 0.9f ? 1 : 0;
+        }
+        EXPECT_GT(between, 20u);
+    }
+}
+
 // Interpolated normals change what light particles carry, and indices what radiance does: neither is of the albedo.
 // Single samples of rough lobes weigh more than one; their means, of 512, do not.
 TEST(FirstHits, NothingScattersMoreLightThanItGets) {

@@ -49,6 +49,7 @@ def matte(name, color=(0.5, 0.5, 0.5)):
     node = tree.nodes.new("ShaderNodeBsdfDiffuse")
     node.inputs["Color"].default_value = (*color, 1.0)
     tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    material.pass_index = len(bpy.data.materials)
     return material
 
 
@@ -82,6 +83,8 @@ def lamp(kind, name, place, energy, rotation=(0.0, 0.0, 0.0), color=(1.0, 1.0, 1
     item = bpy.context.object
     item.name, item.data.energy, item.data.color = name, energy, color
     item.data.shadow_soft_size = 0.0
+    if hasattr(item.data, "use_soft_falloff"):
+        item.data.use_soft_falloff = False  # which would make a disk of a sphere, as in Blender before 4
     if kind == "SUN":
         item.data.angle = 0.0
     for key, value in properties.items():
@@ -121,6 +124,7 @@ def image(name, pixels):
 
 def clear():
     bpy.ops.wm.read_factory_settings(use_empty=True)
+    addon_utils.enable("etendue")  # factory settings have turned it off
     world()
 
 
@@ -144,6 +148,31 @@ def suns():
     ball("Ball", (1.2, 0.0, 0.8), matte("Blue", (0.2, 0.3, 0.7)))
     lamp("SUN", "Sharp", (0.0, 0.0, 5.0), 1.5, rotation=(0.5, 0.3, 0.0))
     lamp("SUN", "Wide", (0.0, 0.0, 5.0), 1.0, rotation=(0.6, -0.6, 0.0), angle=0.5)
+
+
+@scene_of
+def sun_in_mirrors():
+    """A wide sun in a mirror, in rough metal and in glass."""
+    floor()
+    for index, rough in enumerate((0.0, 0.3)):
+        ball(f"Roughness {rough:g}", (2.2 * (index - 1), 0.0, 0.8),
+             principled(f"M{rough:g}", (0.9, 0.7, 0.4), metallic=1.0, roughness=rough))
+    ball("Glass", (2.2, 0.0, 0.85), principled("Glass", (1.0, 1.0, 1.0), transmission=1.0, roughness=0.0, ior=1.45))
+    lamp("SUN", "Sun", (0.0, 0.0, 5.0), 2.0, rotation=(0.7, 0.4, 0.0), angle=0.5)
+    world((0.2, 0.2, 0.2))
+
+
+@scene_of
+def lamps_in_the_way():
+    """An area lamp and a soft point lamp between a floor and other lamps, whose light passes them."""
+    floor()
+    cube("Cube", (1.2, 1.0, 0.6), matte("Red", (0.7, 0.2, 0.2)))
+    ball("Mirror", (-1.2, 1.0, 0.8), principled("Mirror", (0.9, 0.9, 0.9), metallic=1.0, roughness=0.0))
+    lamp("SUN", "Sun", (0.0, 0.0, 5.0), 1.0)
+    lamp("POINT", "Point", (0.0, 0.0, 5.0), 100.0)
+    lamp("AREA", "Panel", (-1.0, -1.0, 2.5), 10.0, size=1.5)
+    lamp("POINT", "Soft", (1.5, -1.0, 2.0), 10.0, shadow_soft_size=0.1)
+    world((0.1, 0.1, 0.1))
 
 
 @scene_of
@@ -440,7 +469,7 @@ def visibility():
     item.visible_camera = False
     item = cube("Off", (0.0, 2.0, 0.6), matte("Green", (0.2, 0.7, 0.2)))
     item.hide_render = True
-    cube("Half", (2.0, 0.0, 0.6), principled("Half", (0.2, 0.3, 0.7), roughness=1.0, specular=0.0, alpha=0.5))
+    cube("Half", (2.0, 0.0, 0.65), principled("Half", (0.2, 0.3, 0.7), roughness=1.0, specular=0.0, alpha=0.5))
     world((0.4, 0.4, 0.4))
     lamp("SUN", "Sun", (0.0, 0.0, 5.0), 2.0, rotation=(0.7, 0.4, 0.0))
 
@@ -517,6 +546,5 @@ def set_cycles(scene, samples, seed=0):
 
 
 def set_etendue(scene, samples, seed=0):
-    addon_utils.enable("etendue")  # factory settings have turned it off
     scene.render.engine = "ETENDUE"
     scene.etendue.samples, scene.etendue.seed, scene.etendue.max_depth = samples, seed, 18
