@@ -143,6 +143,7 @@ struct RenderSettings {
     std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
     MissingTextures missing_textures = MissingTextures::Warn;
     AcceleratorKind accelerator = AcceleratorKind::Embree;  ///< what finds the surfaces that rays meet
+    bool cull_backfaces = false;  ///< single-sided surfaces are invisible from behind, but for those of bodies
     FilmSettings film;
     std::vector<AovDesc> aovs;  ///< layers to write besides the image
     AovLayout aov_layout = AovLayout::Layers;

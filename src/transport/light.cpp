@@ -33,7 +33,7 @@ std::optional<FilmLight> lamp_to_camera(const SubpathSample& sample, const Emiss
                                             transmittance(world, interior_at_light(world, emission), view->distance) *
                                             (emitted.cosine * view->camera.importance_area * share /
                                              (emission.sample.pdf_position_area * emission.probability)) *
-                                            visibility(world, ray, nullptr, RayEnds::AtCamera)};
+                                            visibility(world, ray, nullptr, RayEnds::ToCamera)};
 }
 
 FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& vertex, const LensView& view,
@@ -45,7 +45,7 @@ FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& ver
     return {view.camera.film, vertex.throughput * scattered * sample.wavelength_weight(vertex.is_dispersed) *
                                   transmittance(world, vertex.interior_towards(view.direction), view.distance) *
                                   (view.camera.importance_area * weight) *
-                                  visibility(world, ray, nullptr, RayEnds::AtCamera)};
+                                  visibility(world, ray, nullptr, RayEnds::ToCamera)};
 }
 
 std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, const IntegratorSettings& settings) {

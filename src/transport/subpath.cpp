@@ -2,6 +2,7 @@
 
 #include "transport/bodies.h"
 #include "transport/roulette.h"
+#include "world/lit_surface.h"
 
 namespace etendue {
 
@@ -126,7 +127,15 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
     std::vector<SubpathVertex> vertices;
     for (int bounce = 1;; ++bounce) {
         const bool is_seen = subpath.end == SubpathEnd::AtEye && subpath.index == kDirectlySeen;
-        Hit hit = nearest_hit(world, subpath.ray, is_seen ? RayEnds::AtCamera : RayEnds::InScene);
+        const bool is_among_others = subpath.end == SubpathEnd::AtLight && world.traits().culls_backs;
+        Hit hit;
+        if (is_among_others) {
+            const LitSurface lit = find_lit_surface(world, subpath.ray);
+            hit = lit.hit;
+            subpath.throughput *= lit.count;
+        } else {
+            hit = nearest_hit(world, subpath.ray, is_seen ? RayEnds::AtCamera : RayEnds::InScene);
+        }
         if (is_seen && world.traits().clips_far && world.camera().is_too_far(subpath.ray, hit)) hit = {};
         if (!hit.valid()) {
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
@@ -135,10 +144,13 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
         const Vec2f u_medium = sample.pair(subpath.end, bounce, SubpathDimension::Medium);
         if (const auto vertex =
                 medium_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, subpath.throughput, u_medium)) {
+            if (is_among_others) subpath.throughput *= chance_beyond(world, subpath.ray, vertex->position);
             const SubpathDensities densities = densities_at(sample, subpath, vertex->position, 1.0f);
             vertices.push_back(make_vertex(subpath, *vertex, densities, subpath.edges));
             const Vec2f u = sample.pair(subpath.end, bounce, SubpathDimension::Scattering);
             depart_from(sample, subpath, *vertex, densities, vertex->sample(0.0f, u, subpath.mode()));
+        } else if (is_among_others && !is_lit(world, hit, subpath.ray.direction)) {
+            break;
         } else {
             const float nanometres = subpath.is_dispersed ? sample.wavelength().nm : 0.0f;
             const Vertex surface = surface_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, nanometres,

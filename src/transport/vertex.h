@@ -40,7 +40,11 @@ struct Vertex {
     Bsdf bsdf;
 
     /// Returns how the surface scatters; the vertex must outlive it.
-    [[nodiscard]] Scattering scattering() const { return {bsdf, surface.shading, surface.geometric_normal, wo}; }
+    [[nodiscard]] Scattering scattering() const {
+        Scattering placed(bsdf, surface.shading, surface.geometric_normal, wo);
+        if (surface.material->culls_back) placed.hide_back(surface.geometric_normal);
+        return placed;
+    }
 
     /// True if the vertex lies on a surface that is hidden from the camera.
     [[nodiscard]] bool is_hidden_from_camera() const {

@@ -17,6 +17,11 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::
 void intersect_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays, std::span<Hit> hits,
                      RenderCounters& counters);
 
+/// Finds what rays of light paths light where backs are culled: see `find_lit_surface`. All spans are as long as
+/// `rays`.
+void intersect_lit(const World& world, const TileJob& job, std::span<const Ray> rays, std::span<Hit> hits,
+                   std::span<float> counts, RenderCounters& counters);
+
 /// Removes the hits of rays from the camera that it does not show: those that lie too far, and all of rays that come
 /// from where the film sees nothing.
 inline void hide_unseen_hits(const World& world, std::span<const Ray> rays, std::span<Hit> hits) {

@@ -179,7 +179,8 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
         const Material& material = data.materials[geometry.material];
         filters.push_back({.by_opacity = material.alpha_test != AlphaTest::Opaque,
                            .passes_shadows = material.is_pane,
-                           .is_hidden = !material.visible_to_camera});
+                           .is_hidden = !material.visible_to_camera,
+                           .culls_back = material.culls_back});
     }
     data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
     Touches touches = find_touches(data, threads);

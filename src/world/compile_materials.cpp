@@ -183,6 +183,8 @@ void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldD
     for (const MaterialDesc& desc : scene.materials) {
         data.materials.push_back(compile_material(desc, data.from_rec709, textures));
         const std::optional<Filling> filling = compile_filling(desc, data.from_rec709);
+        // A body that paths enter and do not leave would fill the space behind it.
+        data.materials.back().culls_back = scene.settings.cull_backfaces && !desc.double_sided && !filling;
         if (!filling) continue;
         data.materials.back().filling = static_cast<std::uint32_t>(data.fillings.size());
         data.fillings.push_back(*filling);

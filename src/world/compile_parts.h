@@ -56,7 +56,8 @@ class TextureCompiler {
     [[nodiscard]] Loaded load(const Request& request, const ImageInfo& info) const;
     [[nodiscard]] std::vector<std::size_t> load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads,
                                                          WorldData& data, ProblemList& problems);
-    void open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const;
+    void open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data,
+                     ProblemList& problems) const;
 
     const SceneDesc& scene_;
     std::vector<Request> requests_;

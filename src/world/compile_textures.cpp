@@ -122,6 +122,41 @@ WholeRows read_whole_rows(const ImageSource& source) {
     return rows;
 }
 
+/// Counts what of an image is no number, without keeping it; nothing of integers, nor from where its pixels are broken.
+RepairedValues count_repairs(const ImageSource& source) {
+    RepairedValues repaired;
+    ImageReader reader(source);
+    const ImageInfo& info = reader.info();
+    if (info.depth != TexelDepth::Half && info.depth != TexelDepth::Float) return repaired;
+    const ImageLevel tile = reader.tile();
+    const bool is_tiled = tile.width > 0;
+    const int columns = is_tiled ? tile.width : info.width;
+    const int rows = is_tiled ? tile.height : 1;
+    const auto channels = static_cast<std::size_t>(info.decoded_channels);
+    std::vector<float> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * channels);
+    try {
+        for (int y = 0; y < info.height; y += rows)
+            for (int x = 0; x < info.width; x += columns) {
+                if (is_tiled)
+                    reader.read_tile(0, x, y, values);
+                else
+                    reader.read_rows(0, y, y + 1, values);
+                // What of a tile lies beyond the image counts for nothing.
+                const auto length = static_cast<std::size_t>(std::min(columns, info.width - x)) * channels;
+                for (int row = 0; row < std::min(rows, info.height - y); ++row) {
+                    const std::size_t first =
+                        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) * channels;
+                    const RepairedValues found = etendue::make_finite(std::span(values).subspan(first, length));
+                    repaired.infinite += found.infinite;
+                    repaired.no_number += found.no_number;
+                }
+            }
+    } catch (const IoError&) {
+        return repaired;
+    }
+    return repaired;
+}
+
 std::uint64_t resident_bytes(TextureUse use, const ImageInfo& info) {
     const std::uint64_t texels = mip_texel_count(info.width, info.height) *
                                  static_cast<std::uint64_t>(info.decoded_channels) * bytes_of(info.depth);
@@ -216,7 +251,7 @@ std::vector<std::size_t> TextureCompiler::finish(std::uint64_t budget, const Thr
         if (needed <= budget)
             unreadable = load_resident(infos, threads, data, problems);
         else
-            open_cached(infos, budget, data);
+            open_cached(infos, budget, data, problems);
     }
     if (unreadable.empty()) {
         warn_of_cut_images(is_cut, problems);
@@ -276,12 +311,17 @@ std::vector<std::size_t> TextureCompiler::load_resident(std::span<const ImageInf
     return {};
 }
 
-void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const {
+void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data,
+                                  ProblemList& problems) const {
     data.texture_cache = std::make_unique<TextureCache>(budget);
     // Embedded images are copied: the scene does not outlive compilation. Once, however many textures show them.
     std::map<const ImageDesc*, std::shared_ptr<const std::vector<std::byte>>> embedded;
+    std::set<const ImageDesc*> reported;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
         const ImageDesc& image = image_of(requests_[i]);
+        if (reported.insert(&image).second)
+            warn_of_repairs(read_or_blame(image, [&] { return count_repairs(source_of(image)); }), name_of(image),
+                            image.location, problems);
         if (!fills_display(infos[i])) {
             data.textures.push_back(
                 read_or_blame(image, [&] { return std::move(load(requests_[i], infos[i]).texture); }));

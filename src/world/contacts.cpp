@@ -172,9 +172,11 @@ Contact Contacts::at(const WorldData& data, const Ray& ray, const Hit& hit) cons
     return contact;
 }
 
-const ContactFace& foremost(const WorldData& data, const Contact& contact, const Vec3f& direction) {
+const ContactFace& foremost(const WorldData& data, const Contact& contact, const Vec3f& direction, RayEnds ends) {
     const auto key = [&](const ContactFace& face) {
-        return std::tuple(precedence(material_of(data, face.hit), dot(direction, face.normal) < 0.0f),
+        const Material& material = material_of(data, face.hit);
+        const float cosine = dot(direction, face.normal);
+        return std::tuple(material.culls_back && passes_culled(ends, cosine), precedence(material, cosine < 0.0f),
                           slot_of(data, face.hit), face.hit.triangle);
     };
     return *std::ranges::min_element(contact.all(), {}, key);

@@ -129,8 +129,9 @@ class Contacts {
     std::unique_ptr<EmbreeScene> bvh_;  ///< of surfaces with a reach
 };
 
-/// The surface of a contact that a ray along `direction` meets.
-[[nodiscard]] const ContactFace& foremost(const WorldData& data, const Contact& contact, const Vec3f& direction);
+/// The surface of a contact that a ray along `direction` with these `ends` meets; the first if it passes all.
+[[nodiscard]] const ContactFace& foremost(const WorldData& data, const Contact& contact, const Vec3f& direction,
+                                          RayEnds ends = RayEnds::InScene);
 
 /// Finds the bodies on both sides of a contact for a ray along `direction` that comes from within `current`.
 [[nodiscard]] ContactInteriors interiors(const WorldData& data, const Contact& contact, const Interior& current,

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 
 namespace etendue {
@@ -42,20 +43,30 @@ bool stops(const RTCFilterFunctionNArguments& args, unsigned int i, const Hit& h
     return stops_ray(context.alpha_key(RTCRayN_id(args.ray, args.N, i)), hit, opacity);
 }
 
-/// Lets rays pass where a surface does not stop them: all that have an end at the camera if `Hidden`, others by its
-/// opacity if `ByOpacity`.
-template <bool Hidden, bool ByOpacity>
+/// The cosine, of any length, between ray `i` of a packet and the normal on the front of what it may hit. Both are
+/// those of the mesh where it is an instance, and its front is there what it is in the file.
+float cosine_to_front(const RTCFilterFunctionNArguments& args, unsigned int i) {
+    return RTCRayN_dir_x(args.ray, args.N, i) * RTCHitN_Ng_x(args.hit, args.N, i) +
+           RTCRayN_dir_y(args.ray, args.N, i) * RTCHitN_Ng_y(args.hit, args.N, i) +
+           RTCRayN_dir_z(args.ray, args.N, i) * RTCHitN_Ng_z(args.hit, args.N, i);
+}
+
+/// Lets rays pass where a surface does not stop them: all that have an end at the camera if `Hidden`, those that come
+/// from behind if `Culled`, others by its opacity if `ByOpacity`.
+template <bool Hidden, bool Culled, bool ByOpacity>
 void let_pass(const RTCFilterFunctionNArguments* args) {
-    const bool is_hidden = Hidden && context_of(*args).ends == RayEnds::AtCamera;
+    const RayEnds ends = context_of(*args).ends;
+    const bool is_hidden = Hidden && has_end_at_camera(ends);
     for (unsigned int i = 0; i < args->N; ++i)
-        if (args->valid[i] == -1 && (is_hidden || (ByOpacity && !stops(*args, i, hit_of(*args, i)))))
+        if (args->valid[i] == -1 && (is_hidden || (Culled && passes_culled(ends, cosine_to_front(*args, i))) ||
+                                     (ByOpacity && !stops(*args, i, hit_of(*args, i)))))
             args->valid[i] = 0;
 }
 
 /// Lets shadow rays pass panes.
-template <bool Hidden, bool ByOpacity>
+template <bool Hidden, bool Culled, bool ByOpacity>
 void pass_panes(const RTCFilterFunctionNArguments* args) {
-    let_pass<Hidden, ByOpacity>(args);
+    let_pass<Hidden, Culled, ByOpacity>(args);
     for (unsigned int i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         args->valid[i] = 0;
@@ -63,12 +74,24 @@ void pass_panes(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-/// Sets the filter functions of a geometry with these properties, of which one is true at least.
-template <bool Hidden, bool ByOpacity>
+/// Sets the filter functions of a geometry with these properties, if one is true at least.
+template <bool Hidden, bool Culled, bool ByOpacity>
 void set_let_through(RTCGeometry mesh, bool passes_shadows) {
-    if (Hidden || ByOpacity) rtcSetGeometryIntersectFilterFunction(mesh, let_pass<Hidden, ByOpacity>);
-    rtcSetGeometryOccludedFilterFunction(mesh,
-                                         passes_shadows ? pass_panes<Hidden, ByOpacity> : let_pass<Hidden, ByOpacity>);
+    constexpr bool kAnyRay = Hidden || Culled || ByOpacity;
+    if (kAnyRay) rtcSetGeometryIntersectFilterFunction(mesh, let_pass<Hidden, Culled, ByOpacity>);
+    if (passes_shadows)
+        rtcSetGeometryOccludedFilterFunction(mesh, pass_panes<Hidden, Culled, ByOpacity>);
+    else if (kAnyRay)
+        rtcSetGeometryOccludedFilterFunction(mesh, let_pass<Hidden, Culled, ByOpacity>);
+}
+
+/// Calls `use` with `value` as a constant.
+template <typename Use>
+void with_constant(bool value, const Use& use) {
+    if (value)
+        use(std::true_type());
+    else
+        use(std::false_type());
 }
 
 /// Notes what the ray meets and lets it pass.
@@ -164,14 +187,15 @@ struct GeometryMaker {
     void set_filters(RTCGeometry mesh, const HitFilter& filter) const {
         if (collects) {
             rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_hits<true> : collect_hits<false>);
-        } else if (filter.is_hidden) {
-            (filter.by_opacity ? set_let_through<true, true> : set_let_through<true, false>)(mesh,
-                                                                                             filter.passes_shadows);
-        } else if (filter.by_opacity) {
-            set_let_through<false, true>(mesh, filter.passes_shadows);
-        } else if (filter.passes_shadows) {
-            set_let_through<false, false>(mesh, true);
+            return;
         }
+        with_constant(filter.is_hidden, [&](auto hidden) {
+            with_constant(filter.culls_back, [&](auto culled) {
+                with_constant(filter.by_opacity, [&](auto by_opacity) {
+                    set_let_through<hidden(), culled(), by_opacity()>(mesh, filter.passes_shadows);
+                });
+            });
+        });
     }
 
     /// Returns a scene of the mesh that `instance` shares with others.

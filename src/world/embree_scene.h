@@ -25,6 +25,7 @@ struct HitFilter {
     bool by_opacity = false;      ///< hits on its partly transparent places
     bool passes_shadows = false;  ///< shadow rays pass it, and say that they did
     bool is_hidden = false;       ///< rays with an end at the camera pass it, and say nothing
+    bool culls_back = false;      ///< rays pass it from behind, as `passes_culled` says, and say nothing
 };
 
 /// Opacity of a triangle at a point, [0, 1].

@@ -30,11 +30,29 @@ enum class Coherence {
 /// Answer a ray that asks whether something is in the way.
 inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
 
-/// Says whether rays have an end at the camera, and so pass what is hidden from it.
+/// Says where rays begin and end: those with an end at the camera pass what is hidden from it. All pass culled backs,
+/// as the eye sees them: rays that follow light meet those surfaces from the other side.
 enum class RayEnds {
-    InScene,
-    AtCamera,  ///< straight or through panes
+    InScene,    ///< from the eye's side towards lights
+    AtCamera,   ///< from the camera, straight or through panes
+    ToCamera,   ///< from a light's side to the camera, straight or through panes
+    FromLight,  ///< from a light's side into the scene
 };
+
+/// True of rays that pass what is hidden from the camera.
+[[nodiscard]] constexpr bool has_end_at_camera(RayEnds ends) {
+    return ends == RayEnds::AtCamera || ends == RayEnds::ToCamera;
+}
+
+/// True of rays that go where light goes; the others go where the eye looks.
+[[nodiscard]] constexpr bool follows_light(RayEnds ends) {
+    return ends == RayEnds::ToCamera || ends == RayEnds::FromLight;
+}
+
+/// True if rays pass culled surfaces whose front has a normal at this `cosine`, of either length, to their direction.
+[[nodiscard]] constexpr bool passes_culled(RayEnds ends, float cosine) {
+    return follows_light(ends) ? cosine < 0.0f : cosine > 0.0f;
+}
 
 /// Says how a batch goes through Embree; the default is what measured best for its coherence, and benchmarks compare.
 enum class QueryForm { Best, Single, Packet8, Packet16 };

@@ -28,6 +28,9 @@ class Scattering {
           surface_(surface),
           leans_(length_squared(surface.frame.normal - surface.geometric_normal) > kLeast) {}
 
+    /// Has walks from lights leave on the side of `front` alone, a normal of the surface: no eye sees the other.
+    void hide_back(const Vec3f& front) { hides_behind_ = dot(surface_.geometric_normal, front) > 0.0f ? 1.0f : -1.0f; }
+
     /// f |cos theta_i| with the density of `sample`.
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wi, TransportMode mode) const;
 
@@ -98,12 +101,19 @@ class Scattering {
     [[nodiscard]] BsdfParts evaluate_for_light(const Placed& wo, const Placed& wi) const;
     [[nodiscard]] float pdf_for_eye(const Placed& from, const Placed& to) const;
     [[nodiscard]] float pdf_for_light(const Placed& from, const Placed& to) const;
+    [[nodiscard]] BsdfSample sample_both_sides(float u_lobe, Vec2f u, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample_for_eye(float u_lobe, Vec2f u) const;
     [[nodiscard]] BsdfSample sample_for_light(float u_lobe, Vec2f u) const;
+    /// True if a walk from a light finds no eye along `wi`.
+    [[nodiscard]] bool is_hidden(const Vec3f& wi, TransportMode mode) const {
+        return hides_behind_ != 0.0f && mode == TransportMode::Importance &&
+               !(dot(wi, surface_.geometric_normal) * hides_behind_ > 0.0f);
+    }
 
     const Bsdf* bsdf_;
     OrientedSurface<float> surface_;
-    bool leans_;  ///< false if both normals are one
+    bool leans_;                 ///< false if both normals are one
+    float hides_behind_ = 0.0f;  ///< the front is where the geometric normal times this leads; 0 if both sides are seen
 };
 
 }  // namespace etendue

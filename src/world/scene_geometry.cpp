@@ -40,8 +40,8 @@ void settle_contacts(const WorldData& data, const Materials& materials, const Ba
         const Contact contact = data.contacts->at(data, ray, hits[i]);
         if (contact.count < 2) continue;
         // What is hidden from the camera is not what was hit, and lies in front of nothing.
-        const Hit& front = foremost(data, contact, ray.direction).hit;
-        if (ends == RayEnds::InScene || !materials.is_hidden_from_camera(front)) hits[i] = front;
+        const Hit& front = foremost(data, contact, ray.direction, ends).hit;
+        if (!has_end_at_camera(ends) || !materials.is_hidden_from_camera(front)) hits[i] = front;
         hits[i].in_contact = 1;
     }
 }
@@ -134,8 +134,9 @@ Rgb SceneGeometry::pane_transmittance(const Ray& ray, RayEnds ends) const {
                       [](const Hit& hit) { return std::tuple(hit.t, hit.instance, hit.geometry, hit.triangle); });
     Rgb transmittance(1.0f);
     for (const Hit& hit : hits) {
-        if (ends == RayEnds::AtCamera && materials_.is_hidden_from_camera(hit)) continue;
+        if (has_end_at_camera(ends) && materials_.is_hidden_from_camera(hit)) continue;
         const SurfacePoint point = surface_point(hit);
+        if (point.material->culls_back && passes_culled(ends, dot(ray.direction, point.geometric_normal))) continue;
         Bsdf storage;
         const Vec3f wo = -ray.direction;
         Rgb passed;

@@ -39,8 +39,11 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     SceneTraits traits;
     traits.has_textures = !data.textures.empty();
     traits.has_panes = data.panes != nullptr;
-    traits.has_transparency =
-        std::ranges::any_of(data.materials, [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
+    traits.culls_backs = has_surface([](const Material& material) { return material.culls_back; });
+    // Light passes culled surfaces, or meets them, at random.
+    traits.has_transparency = traits.culls_backs || std::ranges::any_of(data.materials, [](const Material& m) {
+                                  return m.alpha_test != AlphaTest::Opaque;
+                              });
     traits.has_motion = data.bvh->has_motion() || !data.camera_motion.empty();
     traits.has_lens = has_lens(data.camera);
     traits.film_wraps = film_wraps(data.camera);

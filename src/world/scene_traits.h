@@ -13,7 +13,7 @@ class Media;
 struct SceneTraits {
     bool has_textures = false;            ///< something is textured, so that rays need cones
     bool has_panes = false;               ///< some surface is a pane
-    bool has_transparency = false;        ///< some surface lets light through, so that rays need alpha keys
+    bool has_transparency = false;        ///< some surface lets rays through at random, so that they need alpha keys
     bool has_motion = false;              ///< something moves while the shutter is open, so that rays need times
     bool film_wraps = false;              ///< the camera sees all around: its film goes on beyond its edges
     bool has_blind_film = false;          ///< parts of the film see nothing: the t_max of rays from there is 0
@@ -23,6 +23,7 @@ struct SceneTraits {
     bool has_unlit_surfaces = false;      ///< some surface shows its colour and neither scatters nor emits light
     bool has_emitting_surfaces = false;   ///< some surface emits light
     bool hides_surfaces = false;          ///< some surface is hidden from the camera
+    bool culls_backs = false;             ///< the eye does not see some surface from behind
     bool has_unsampled_emitters = false;  ///< some of these move or are beyond the most triangles that are sampled
 
     bool has_bodies = false;             ///< there is something that light can be in

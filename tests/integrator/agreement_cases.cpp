@@ -44,6 +44,28 @@ void under_hidden_lamp(SceneDesc& scene) {
     add_object(scene, quad({0.1f, -0.3f, -2.3f}, {0.3f, 0, 0.1f}, {0, 0.1f, -0.2f}), add_material(scene, card));
 }
 
+/// Surfaces whose backs are culled in a room, facing both ways, two of them in one place.
+void add_culled(SceneDesc& scene) {
+    scene.settings.cull_backfaces = true;
+    MaterialDesc leaf = gltf_plastic();
+    leaf.diffuse_transmission.factor = 0.6f;
+    MaterialDesc sheet = gltf_plastic();
+    sheet.transmission = 0.8f;
+    sheet.roughness = 0.6f;
+    MaterialDesc veil = diffuse({0.3f, 0.6f, 0.3f});
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.base_alpha = 0.5f;
+    const auto wall = add_material(scene, diffuse({0.7f, 0.7f, 0.3f}));
+    const auto other = add_material(scene, gltf_plastic());
+    add_object(scene, quad({0.4f, 0.5f, -2.9f}, {0.5f, 0, 0}, {0, 0, -0.4f}), wall);
+    add_object(scene, quad({-0.1f, -0.2f, -1.9f}, {0, 0.5f, 0}, {0.5f, 0, 0}), other);
+    add_object(scene, quad({0.6f, 0.1f, -2.4f}, {0.25f, 0, 0.1f}, {0, 0.3f, 0}), add_material(scene, leaf));
+    add_object(scene, quad({-0.6f, -0.1f, -2.7f}, {0, 0.3f, 0}, {0.25f, 0, 0.1f}), add_material(scene, sheet));
+    add_object(scene, quad({0.1f, 0.3f, -2.5f}, {0, 0.2f, 0}, {0.2f, 0, 0}), add_material(scene, veil));
+    add_object(scene, quad({0.9f, -0.2f, -3.3f}, {0, 0.4f, 0}, {0, 0, 0.4f}), wall);
+    add_object(scene, quad({0.9f, -0.2f, -3.3f}, {0, 0, 0.4f}, {0, 0.4f, 0}), other);
+}
+
 std::vector<AgreementCase> all_cases() {
     MaterialDesc wax;
     wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.6f, 0.4f}, .radius = Rgb(0.15f)};
@@ -282,6 +304,35 @@ std::vector<AgreementCase> all_cases() {
     // Scattering in media adds no edges: with the fewest of them there is still light from all over the fog.
     cases.push_back({"LampInFogWithoutSurfaces", in_fog, {.max_depth = 1}, all, 16, bdpt});
     cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 32, bdpt});
+    // A light path takes one of the surfaces that its ray lights; in fog some of them lie behind where it is scattered.
+    cases.push_back({"CulledBacks",
+                     [](SceneDesc& scene) {
+                         add_ball(scene, gltf_plastic());
+                         add_lamp(scene);
+                         add_culled(scene);
+                     },
+                     {.max_depth = 5},
+                     all,
+                     32,
+                     {"path", "light", "bdpt", "vcm"}});
+    cases.push_back({"CulledPane",
+                     [=](SceneDesc& scene) {
+                         behind_panes(scene);
+                         scene.settings.cull_backfaces = true;
+                     },
+                     {.max_depth = 5},
+                     all,
+                     32,
+                     bdpt});
+    cases.push_back({"CulledBacksInFog",
+                     [=](SceneDesc& scene) {
+                         in_fog(scene);
+                         add_culled(scene);
+                     },
+                     {.max_depth = 3},
+                     all,
+                     24,
+                     bdpt});
     return cases;
 }
 

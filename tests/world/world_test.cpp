@@ -291,6 +291,65 @@ TEST(World, RaysWithAnEndAtTheCameraPassWhatIsHiddenFromIt) {
         }
 }
 
+// In every form, baked, instanced and mirrored, opaque, partly transparent and a pane.
+TEST(World, RaysPassCulledBacksFromWhereTheEyeIsBehindThem) {
+    MaterialDesc veil = diffuse(Rgb(0.5f));
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.base_alpha = 0.999f;
+    MaterialDesc pane;
+    pane.transmission = 1.0f;
+    pane.roughness = 0.0f;
+    pane.metallic = 0.0f;
+    for (const MaterialDesc& material : {diffuse(Rgb(0.5f)), veil, pane})
+        for (const bool is_instance : {false, true})
+            for (const float mirror : {1.0f, -1.0f}) {
+                SceneDesc scene = empty_scene();
+                scene.settings.cull_backfaces = true;
+                PrimitiveDesc card = quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+                card.material = add_material(scene, material);
+                const auto mesh = add_mesh(scene, {card});
+                place(scene, mesh, scaling({mirror, 1.0f, 1.0f}));
+                if (is_instance) place(scene, mesh, translation({5, 0, 0}));
+                const World world = compile(scene);
+                EXPECT_TRUE(world.traits().culls_backs);
+                const Ray to_front{.direction = {0, 0, -1}};
+                const Ray to_back{.origin = {0, 0, -4}, .direction = {0, 0, 1}, .t_max = 3.0f};
+                for (const QueryForm form : {QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16})
+                    for (const RayEnds ends :
+                         {RayEnds::InScene, RayEnds::AtCamera, RayEnds::ToCamera, RayEnds::FromLight}) {
+                        const auto meets = [&](const Ray& ray) {
+                            Hit found;
+                            world.geometry().intersect({&ray, 1}, {&found, 1}, Coherence::Coherent, form, ends);
+                            std::uint8_t occluded = kFree;
+                            world.geometry().occluded({&ray, 1}, {&occluded, 1}, form, ends);
+                            EXPECT_EQ(occluded != kFree, found.valid());
+                            return found.valid();
+                        };
+                        EXPECT_EQ(meets(to_front), !follows_light(ends));
+                        EXPECT_EQ(meets(to_back), follows_light(ends));
+                    }
+                if (material.transmission == 0.0f) continue;
+                EXPECT_LT(world.geometry().pane_transmittance(to_front).r, 1.0f);
+                EXPECT_EQ(world.geometry().pane_transmittance(to_back), Rgb(1.0f));
+                EXPECT_LT(world.geometry().pane_transmittance(to_back, RayEnds::ToCamera).r, 1.0f);
+            }
+}
+
+TEST(World, BacksAreSeenUnlessTheyAreToBeCulled) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc glass;
+    glass.override_model = DielectricDesc{.ior = 1.5f, .roughness = 0.0f};
+    MaterialDesc both = diffuse(Rgb(0.5f));
+    both.double_sided = true;
+    for (const MaterialDesc& material : {diffuse(Rgb(0.5f)), glass, both})
+        add_object(scene, sphere({0, 0, -5}, 1.0f, 4), add_material(scene, material));
+    EXPECT_FALSE(compile(scene).traits().culls_backs);
+    scene.settings.cull_backfaces = true;
+    EXPECT_TRUE(compile(scene).traits().culls_backs);
+    scene.materials[0] = glass;
+    EXPECT_FALSE(compile(scene).traits().culls_backs) << "bodies, and what is double-sided";
+}
+
 }  // namespace
 
 }  // namespace etendue::test

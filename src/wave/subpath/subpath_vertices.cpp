@@ -58,6 +58,7 @@ void SubpathVertices::place(const World& world, const SurfacePoint& point, float
     const Bsdf& bsdf = world.materials().bsdf(point, vertex.wo, relative_ior, storage);
     if (&bsdf == &storage) ++bsdf_count_;
     vertex.surface.emplace(bsdf, point.shading, point.geometric_normal, vertex.wo);
+    if (point.material->culls_back) vertex.surface->hide_back(point.geometric_normal);
     vertex.is_connectible = vertex.surface->has_non_delta();
 }
 

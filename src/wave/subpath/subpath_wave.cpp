@@ -5,6 +5,7 @@
 #include "transport/roulette.h"
 #include "transport/subpath.h"
 #include "wave/ray_batch.h"
+#include "world/lit_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +67,13 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         const RayKind kind = end_ == SubpathEnd::AtLight ? RayKind::LightSubpath
                              : from_camera               ? RayKind::Primary
                                                          : RayKind::Bounce;
-        intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
+        if (chooses_surfaces(job.world)) {
+            lit_counts_.resize(rays_.size());
+            intersect_lit(job.world, job.job, rays_, hits_, lit_counts_, counters);
+            for (std::size_t i = 0; i < states_.size(); ++i) states_[i].throughput *= lit_counts_[i];
+        } else {
+            intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
+        }
         if (kind == RayKind::Bounce && job.world.traits().hides_surfaces)
             for (std::size_t i = 0; i < states_.size(); ++i)
                 if (states_[i].index == kDirectlySeen && job.world.materials().is_hidden_from_camera(hits_[i]))
@@ -91,8 +98,8 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
 }
 
 std::size_t SubpathWave::bytes() const {
-    std::size_t bytes =
-        sizeof *this + vector_bytes(states_, rays_, hits_, interiors_, emissions_) + keys_.bytes() + vertices_.bytes();
+    std::size_t bytes = sizeof *this + vector_bytes(states_, rays_, hits_, lit_counts_, interiors_, emissions_) +
+                        keys_.bytes() + vertices_.bytes();
     for (const NumberPairs* numbers :
          {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
         bytes += numbers->bytes();
@@ -211,6 +218,11 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         return false;
     }
     if (world.traits().has_bodies && scatter_in_medium(job, i)) return false;
+    if (chooses_surfaces(world) && !is_lit(world, hits_[i], rays_[i].direction)) {
+        hits_[i] = {};
+        end_path(job, i, PathEnding::Absorbed);
+        return false;
+    }
     path.plain = world.materials().plain_bsdf(hits_[i]);
     if (path.plain != nullptr) {
         path.point.material = world.materials().at(hits_[i]);
@@ -371,8 +383,10 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     if (!sample.scatters) return false;
     if (job.job.profile != nullptr && end_ == SubpathEnd::AtEye) ++job.job.profile->use().phase_samples;
     const Vec3f wo = -ray.direction;
+    const Vec3f position = ray.origin + ray.direction * sample.distance;
+    if (chooses_surfaces(job.world)) state.throughput *= chance_beyond(job.world, ray, position);
     PathVertex& vertex = vertices_.store(state);
-    vertex.position = ray.origin + ray.direction * sample.distance;
+    vertex.position = position;
     vertex.wo = wo;
     vertex.outside = vertex.inside = medium;
     vertex.densities = arrive(job, i, vertex.position, 1.0);

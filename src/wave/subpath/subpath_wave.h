@@ -101,6 +101,10 @@ class SubpathWave {
   private:
     void begin_at_eye(const SubpathJob& job);
     void begin_at_lights(const SubpathJob& job);
+    /// True if rays light several surfaces, of which the subpath takes one.
+    [[nodiscard]] bool chooses_surfaces(const World& world) const {
+        return end_ == SubpathEnd::AtLight && world.traits().culls_backs;
+    }
     void draw_numbers(const SubpathJob& job);
     /// Subpaths that go from one stage of shading to the next together, as in PathWave.
     static constexpr std::size_t kBlock = kBlockLanes;
@@ -147,6 +151,7 @@ class SubpathWave {
     std::vector<SubpathState> states_;
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
+    std::vector<float> lit_counts_;    ///< LitSurface::count, only of light subpaths where backs are culled
     std::vector<Interior> interiors_;  ///< only if the World has bodies
     SampleKeys keys_;
     NumberPairs scattering_, choices_, medium_;
