@@ -102,8 +102,9 @@ std::string type_name_of(const SettingType& type) {
                    },
                    [](const Choice& choice) { return fmt::format("TEXT:{{{}}}", fmt::join(choice.names, ",")); },
                    [](const Name& name) {
-                       return name.is_integrator ? fmt::format("TEXT:{{{}}}", fmt::join(integrator_setting_names(), ","))
-                                                 : std::string("TEXT");
+                       return name.is_integrator
+                                  ? fmt::format("TEXT:{{{}}}", fmt::join(integrator_setting_names(), ","))
+                                  : std::string("TEXT");
                    },
                    []<typename Number>(const Numbers<Number>& numbers) {
                        const std::string_view form = numbers.option_form;
@@ -156,7 +157,8 @@ void add_setting_option(CLI::App& command, const Setting& setting, SettingsOverr
     option->type_name(type_name_of(setting.type));
     option->group(group_of(setting));
     const auto* const name = std::get_if<Name>(&setting.type);
-    if (name != nullptr && name->is_integrator) option->check(CLI::IsMember(integrator_setting_names()).description(""));
+    if (name != nullptr && name->is_integrator)
+        option->check(CLI::IsMember(integrator_setting_names()).description(""));
 }
 
 }  // namespace

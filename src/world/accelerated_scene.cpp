@@ -26,6 +26,8 @@ void require_still_and_small(const WorldData& data) {
         return !geometry.motion.empty();
     });
     if (has_motion) refuse("something moves while the shutter is open");
+    if (std::ranges::any_of(data.materials, &Material::culls_back))
+        refuse("back faces are invisible (--cull-backfaces)");
     std::size_t triangles = 0;
     for (const Instance& instance : data.instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
@@ -58,7 +60,7 @@ class AcceleratedScene::Filter final : public TriangleFilter {
         const Hit hit = scene_.make_hit(met, ray_.time);
         const WorldData& data = scene_.data_;
         const Material& material = data.materials[data.geometries[hit.geometry].material];
-        if (ends_ == RayEnds::AtCamera && !material.visible_to_camera) return false;
+        if (has_end_at_camera(ends_) && !material.visible_to_camera) return false;
         if (material.alpha_test != AlphaTest::Opaque &&
             !stops_ray(ray_.alpha_key, hit, evaluate_opacity(data, hit.geometry, hit.triangle, {hit.u, hit.v})))
             return false;
