@@ -24,13 +24,15 @@ void BatchBooks::append(const LedgerEvent& event) {
 
 bool BatchBooks::are_reports_due() const {
     constexpr int kLeastShare = 20;
-    constexpr Clock::duration kNewest = std::chrono::seconds(1);
+    constexpr Clock::duration kOfEachUnit = std::chrono::milliseconds(10);
     constexpr Clock::duration kOldest = std::chrono::minutes(1);
-    return Clock::now() - written_ > std::clamp(kLeastShare * took_, kNewest, kOldest);
+    const Clock::duration newest = std::chrono::seconds(1) + kOfEachUnit * static_cast<int>(units_);
+    return Clock::now() - written_ > std::min(std::max(kLeastShare * took_, newest), kOldest);
 }
 
 void BatchBooks::write_reports(const BatchReport& report) {
     const Clock::time_point start = Clock::now();
+    units_ = report.units.size();
     try_to([&] { page_.write(report); });
     written_ = Clock::now();
     took_ = written_ - start;

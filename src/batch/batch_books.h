@@ -6,6 +6,7 @@
 #include "report/batch_report.h"
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 
@@ -18,8 +19,8 @@ class BatchBooks {
 
     void append(const LedgerEvent& event);
 
-    /// Returns whether report.json and index.html are to be written anew: they are a second old and the time that this
-    /// takes is small against the time since it was last done, or they are a minute old.
+    /// Returns whether report.json and index.html are to be written anew: they are a second old, and as much more as
+    /// they are large, and the time that writing takes is small against that; or they are a minute old.
     [[nodiscard]] bool are_reports_due() const;
     /// Writes report.json and index.html.
     void write_reports(const BatchReport& report);
@@ -36,6 +37,7 @@ class BatchBooks {
     bool are_kept_ = true;
     Clock::time_point written_{};
     Clock::duration took_{};
+    std::size_t units_ = 0;  ///< units of the last report
 };
 
 }  // namespace etendue

@@ -99,12 +99,13 @@ BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tas
 }
 
 const BatchPlan& BatchRunner::plan() {
+    std::size_t reported = 0;
     plan_ = make_plan(std::move(tasks_), options_, history_,
                       [&](const std::string& what, const BatchPlan& so_far, std::size_t of) {
                           progress_.update({.done = so_far.size(), .of = of, .current = what, .state = "planning"});
-                          if (!books_.are_reports_due()) return;
-                          report_plan(so_far);
-                          write_reports(true);
+                          for (; reported < so_far.size(); ++reported)
+                              report_.units[reported] = planned_unit(so_far[reported], options_);
+                          write_reports(false);
                       });
     tasks_.clear();
     progress_.clear();
@@ -114,9 +115,9 @@ const BatchPlan& BatchRunner::plan() {
         return plan_;
     }
     arrange(plan_, options_.order);
-    report_.units.resize(plan_.size());
-    report_plan(plan_);
+    report_.units.clear();
     for (const PlannedUnit& unit : plan_) {
+        report_.units.push_back(planned_unit(unit, options_));
         if (!unit.is_stale()) continue;
         ++stale_;
         time_left_.add(unit.error.empty() ? unit.estimated_seconds : 0.0);
@@ -124,10 +125,6 @@ const BatchPlan& BatchRunner::plan() {
         for (std::string line; std::getline(lines, line);) said_[unit.task.job.scene].insert(line);
     }
     return plan_;
-}
-
-void BatchRunner::report_plan(const BatchPlan& plan) {
-    for (std::size_t i = 0; i < plan.size(); ++i) report_.units[i] = planned_unit(plan[i], options_);
 }
 
 void BatchRunner::abandon() {
@@ -452,6 +449,7 @@ void BatchRunner::wait_for_others(const std::vector<std::size_t>& held) {
         progress_.say(fmt::format("waiting for what other batch processes make: {} by {}{}", first.name, first.host,
                                   held.size() > 1 ? fmt::format(", and {} more", held.size() - 1) : ""));
     show(first.name, "made by " + first.host, 0.0, 0.0);
+    write_reports(false);
     ::poll(nullptr, 0, static_cast<int>(kBetweenTries.count()));
 }
 

@@ -52,8 +52,6 @@ class BatchRunner {
     bool work_under(BatchLock& lock, std::size_t index);
     /// Returns whether another process has made the image, or failed to, since this one looked at it last.
     bool was_made_elsewhere(std::size_t index, const BatchLock& lock);
-    /// Takes the plan over into the report, as far as it is made.
-    void report_plan(const BatchPlan& plan);
     /// Passes on what a process says about an image, but for notes and warnings that its scene has had already.
     void pass_on(const ImageJob& job, const std::string& line);
     /// Tells what a process does that makes an image.
