@@ -36,6 +36,7 @@ constexpr std::array kPlotFormats{"svg", "pdf"};
 
 std::vector<std::string> plot_paths() {
     std::vector<std::string> metrics;
+    metrics.reserve(kErrorMetrics.size());
     for (const ErrorMetric metric : kErrorMetrics) metrics.emplace_back(name_of(metric));
     std::vector<std::string> paths;
     for (const std::string& name : convergence_plot_names(metrics))

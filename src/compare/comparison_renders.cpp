@@ -119,6 +119,7 @@ std::optional<std::vector<std::uint32_t>> calibrated_samples(std::span<const Var
             samples_per_second[v].push_back(render.spp() / render.time());
         }
     std::vector<std::uint32_t> samples;
+    samples.reserve(variants.size());
     for (std::vector<double>& of_variant : samples_per_second)
         samples.push_back(static_cast<std::uint32_t>(
             std::clamp(std::round(wanted * median(of_variant)), 1.0, static_cast<double>(kMostSamples))));

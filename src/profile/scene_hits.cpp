@@ -20,6 +20,7 @@ namespace {
 /// Hits by name, the most first.
 std::vector<NamedValue> sorted_by_count(const std::map<std::string, double>& counts) {
     std::vector<NamedValue> values;
+    values.reserve(counts.size());
     for (const auto& [name, count] : counts) values.push_back({name, count});
     std::ranges::stable_sort(values, std::ranges::greater{}, &NamedValue::value);
     return values;
@@ -57,6 +58,7 @@ class HitCounter {
 
     void add_shadow(const std::vector<Ray>& rays, double weight) {
         ends_.clear();
+        ends_.reserve(rays.size());
         for (const Ray& ray : rays) ends_.push_back(beyond_end(ray));
         hits_.resize(rays.size());
         blocked_.resize(rays.size());
@@ -73,6 +75,7 @@ class HitCounter {
         SceneHitsReport report{.materials = sorted_by_count(materials_),
                                .objects = sorted_by_count(objects_),
                                .textures = sorted_by_count(textures_)};
+        report.lamps.reserve(lamps_.size());
         for (const auto& [name, lamp] : lamps_) report.lamps.push_back({name, lamp.shadow_rays, lamp.blocked});
         std::ranges::stable_sort(report.lamps, std::ranges::greater{}, &LampReport::shadow_rays);
         return report;

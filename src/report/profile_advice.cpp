@@ -46,6 +46,7 @@ class Adviser {
         threads();
         std::ranges::stable_sort(found_, std::ranges::greater{}, &Advice::share);
         std::vector<std::string> texts;
+        texts.reserve(found_.size());
         for (const Advice& advice : found_) texts.push_back(advice.text);
         return texts;
     }
