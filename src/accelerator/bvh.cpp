@@ -85,8 +85,9 @@ struct Bvh::Builder {
 
     /// Puts triangles whose center is below `place` first, and returns how many there are.
     std::size_t split_at(Range range, int axis, float place) const {
-        const auto right = std::ranges::partition(range, [&](std::uint32_t i) { return centers[i][axis] < place; });
-        return range.size() - right.size();
+        const auto right =
+            std::partition(range.begin(), range.end(), [&](std::uint32_t i) { return centers[i][axis] < place; });
+        return static_cast<std::size_t>(right - range.begin());
     }
 
     struct Bin {
