@@ -167,6 +167,7 @@ std::vector<Ray> rays_to_ground() {
 
 std::vector<std::string> accelerator_names() {
     std::vector<std::string> names;
+    names.reserve(kAcceleratorNames.size());
     for (const auto& [name, kind] : kAcceleratorNames) names.emplace_back(name);
     return names;
 }
