@@ -13,6 +13,8 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/standard_output.h"
+#include "picture/output_paths.h"
+#include "process/process_limits.h"
 #include "session/interrupt.h"
 
 #include <algorithm>
@@ -32,14 +34,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Less may not be enough for the program and its libraries to say what is wrong: bytes.
-constexpr std::uint64_t kLeastMemoryLimit = std::uint64_t{256} << 20u;
-
 /// Makes the output directory. Throws IoError if nothing can be written in it: better now than after the first image.
 void prepare_output(const fs::path& output) {
     std::error_code error;
     fs::create_directories(output, error);
     if (error) throw IoError(fmt::format("cannot make {}: {}", output.string(), error.message()));
+    for (const fs::path& file : batch_files(output)) require_writable(file);
     // What the directory allows is not all that counts: a whole file system may be read-only.
     BatchLocks(output).require();
 }
