@@ -4,12 +4,15 @@
 #include "api/scene_state.h"
 #include "output/software_name.h"
 #include "picture/aov_setup.h"
+#include "picture/integrator_choice.h"
 #include "picture/render_setup.h"
 #include "processor/ray_code.h"
 
 #include <atomic>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <etendue/render.h>
 #include <fmt/format.h>

@@ -30,6 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How files of layers go on after an image's name where they are named after a light.
+constexpr std::string_view kLayerOfLight = ".light_";
+
 struct FoundScene {
     fs::path path;
     fs::path root;     ///< the directory given, below which it was found
@@ -196,15 +199,17 @@ void choose(std::vector<BatchTask>& tasks, const BatchOptions& options) {
     if (tasks.empty()) throw UsageError("--only and --exclude leave no image");
 }
 
-/// Names of the layers of the scene's images that have files of their own, as far as settings tell: those that are
-/// named after what is in the scene are not among them.
-std::vector<std::string> layers_with_files(const fs::path& scene, const SettingsOverrides& overrides) try {
-    SceneDesc settings_only;
-    settings_only.settings = find_settings(scene).value_or(RenderSettings());
-    overrides.apply(settings_only.settings);
+/// Names of the layers of the scene's images that have files of their own, as settings tell them. Those that are named
+/// after what is in the scene are among them if `reads_scene`, which takes as long as reading the scene.
+std::vector<std::string> layers_with_files(const fs::path& scene, const SettingsOverrides& overrides,
+                                           bool reads_scene) try {
+    SceneDesc desc;
+    desc.settings = find_settings(scene).value_or(RenderSettings());
+    overrides.apply(desc.settings);
+    const bool each_has_file = desc.settings.aov_layout == AovLayout::Files;
+    if (reads_scene && each_has_file) desc = load_scene(scene, overrides.load_options()).scene;
     ProblemList ignored;
-    return layers_with_files(make_aov_plan(settings_only, ignored),
-                             settings_only.settings.aov_layout == AovLayout::Files);
+    return layers_with_files(make_aov_plan(desc, ignored), each_has_file);
 } catch (const std::exception&) {
     return {};  // rendering the scene will say what is wrong
 }
@@ -214,9 +219,16 @@ std::vector<fs::path> files_of(const std::vector<BatchTask>& tasks, const BatchO
     std::vector<fs::path> files = batch_files(options.output);
     std::set<fs::path> taken(files.begin(), files.end());
     std::map<fs::path, std::vector<std::string>> layers;
+    std::set<std::string> images;
+    for (const BatchTask& task : tasks) images.insert(task.job.output.string());
     for (const BatchTask& task : tasks) {
         const auto [of_scene, is_new] = layers.try_emplace(task.job.scene);
-        if (is_new) of_scene->second = layers_with_files(task.job.scene, options.overrides);
+        // Names of lamps are asked for only if an image could have the name of such a layer.
+        fs::path of_lights = task.job.output;
+        const std::string beginning = of_lights.replace_extension(kLayerOfLight).string();
+        const auto next = images.lower_bound(beginning);
+        const bool may_meet = next != images.end() && next->starts_with(beginning);
+        if (is_new || may_meet) of_scene->second = layers_with_files(task.job.scene, options.overrides, may_meet);
         for (fs::path& file : files_of_image(task.job.output, of_scene->second)) {
             if (!taken.insert(file).second)
                 throw SceneError({task.job.scene.string(), {}},

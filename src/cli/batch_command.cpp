@@ -12,6 +12,8 @@
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/standard_output.h"
+#include "picture/output_paths.h"
+#include "process/process_limits.h"
 #include "process/run_command.h"
 #include "session/interrupt.h"
 #include "session/option_check.h"
@@ -35,13 +37,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Less may not be enough for the program and its libraries to say what is wrong: bytes.
-constexpr std::uint64_t kLeastMemoryLimit = std::uint64_t{256} << 20u;
-
 const std::map<std::string, BatchOrder> kOrders{{"shortest", BatchOrder::Shortest},
-                                                {"longest", BatchOrder::Longest},
-                                                {"name", BatchOrder::Name},
-                                                {"newest", BatchOrder::Newest}};
+                                                 {"longest", BatchOrder::Longest},
+                                                 {"name", BatchOrder::Name},
+                                                 {"newest", BatchOrder::Newest}};
 
 /// Makes the output directory. Throws UsageError if a file is in its place, IoError if nothing can be written in it:
 /// better now than after the first image.
@@ -51,6 +50,7 @@ void prepare_output(const fs::path& output) {
         throw UsageError(fmt::format("--output '{}' is a file: name a directory for the images", output.string()));
     fs::create_directories(output, error);
     if (error) throw IoError(fmt::format("cannot make {}: {}", output.string(), error.message()));
+    for (const fs::path& file : batch_files(output)) require_writable(file);
     // What the directory allows is not all that counts: a whole file system may be read-only.
     BatchLocks(output).require();
 }

@@ -166,7 +166,7 @@ class LoadedScene {
 
     RenderSettings settings;
     std::string working_space;
-    SceneNames names;
+    SceneHitNames names;
     std::vector<std::filesystem::path> inputs;  ///< files that are read, earlier profiles among them
     std::unique_ptr<const World> world;
 };

@@ -7,6 +7,7 @@
 #include "core/source_date.h"
 #include "core/standard_output.h"
 #include "film/film.h"
+#include "process/process_limits.h"
 #include "processor/ray_code.h"
 #include "session/interrupt.h"
 #include "session/usage_error.h"
@@ -89,7 +90,10 @@ int run_program(int argc, char** argv) {
         return static_cast<int>(run([&] { return answer(*app, error); }));
     }
     install_interrupt_handlers();
-    return static_cast<int>(run(action));
+    return static_cast<int>(run([&] {
+        require_process_limits();
+        return action();
+    }));
 }
 
 }  // namespace etendue

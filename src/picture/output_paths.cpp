@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,6 +51,11 @@ void require_writable(const std::filesystem::path& file) {
         throw IoError(fmt::format("cannot write {}: there is no directory {}", file.string(), directory.string()));
     if (std::filesystem::is_directory(file))
         throw IoError(fmt::format("cannot write {}: it is a directory", file.string()));
+    // What the process has opened already, such as /dev/stdout, leads to no file that has a name.
+    std::error_code has_no_name;
+    (void)std::filesystem::canonical(file, has_no_name);
+    if (!has_no_name && (std::filesystem::is_fifo(file) || std::filesystem::is_socket(file)))
+        throw IoError(fmt::format("cannot write {}: it is a pipe or a socket, and a file is wanted", file.string()));
     if (access(directory.c_str(), W_OK | X_OK) != 0)
         throw IoError(fmt::format("cannot write {}: {} is not writable", file.string(), directory.string()));
 }

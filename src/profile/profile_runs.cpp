@@ -61,7 +61,7 @@ bool render_for(ProgressiveRender& render, double seconds, std::uint32_t spp) {
 
 class RunMeasurement {
   public:
-    RunMeasurement(const World& world, const SceneNames& names, const RenderSettings& settings,
+    RunMeasurement(const World& world, const SceneHitNames& names, const RenderSettings& settings,
                    const ProfileRequest& request)
         : world_(world), names_(names), request_(request), display_("profile", request.quiet) {
         std::vector<std::shared_ptr<const ThreadPool>> pools;
@@ -321,7 +321,7 @@ class RunMeasurement {
     }
 
     const World& world_;
-    const SceneNames& names_;
+    const SceneHitNames& names_;
     const ProfileRequest& request_;
     ProgressDisplay display_;
     std::vector<Setup> setups_;
@@ -335,7 +335,7 @@ class RunMeasurement {
 
 }  // namespace
 
-ProfileRuns measure_runs(const World& world, const SceneNames& names, const RenderSettings& settings,
+ProfileRuns measure_runs(const World& world, const SceneHitNames& names, const RenderSettings& settings,
                          const ProfileRequest& request) {
     return RunMeasurement(world, names, settings, request).measure();
 }

@@ -47,7 +47,7 @@ struct ProfileRuns {
 /// Measures every integrator on every number of threads. Repetitions of all runs take turns, so that what else the
 /// machine does falls on all alike; each takes the same samples. After them each run renders once more with its stages
 /// timed and some of its rays recorded, which bare Embree then traces again on as many threads.
-[[nodiscard]] ProfileRuns measure_runs(const World& world, const SceneNames& names, const RenderSettings& settings,
+[[nodiscard]] ProfileRuns measure_runs(const World& world, const SceneHitNames& names, const RenderSettings& settings,
                                        const ProfileRequest& request);
 
 }  // namespace etendue

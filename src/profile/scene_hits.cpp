@@ -42,7 +42,7 @@ Ray beyond_end(const Ray& ray) {
 
 class HitCounter {
   public:
-    HitCounter(const World& world, const SceneNames& names) : world_(world), names_(names) {}
+    HitCounter(const World& world, const SceneHitNames& names) : world_(world), names_(names) {}
 
     void add_nearest(const std::vector<Ray>& rays, double weight) {
         hits_.resize(rays.size());
@@ -85,7 +85,7 @@ class HitCounter {
     static constexpr const char* kNoSurface = "lights without a surface";
 
     const World& world_;
-    const SceneNames& names_;
+    const SceneHitNames& names_;
     std::vector<Hit> hits_;
     std::vector<Ray> ends_;
     std::vector<std::uint8_t> blocked_;
@@ -97,8 +97,8 @@ class HitCounter {
 
 }  // namespace
 
-SceneNames scene_names(const SceneDesc& scene) {
-    SceneNames names{.objects = object_names(scene), .materials = material_names(scene), .textures = {}};
+SceneHitNames scene_names(const SceneDesc& scene) {
+    SceneHitNames names{.objects = object_names(scene), .materials = material_names(scene), .textures = {}};
     for (const MaterialDesc& material : scene.materials) {
         std::set<std::string> textures;
         for_each_texture(material, [&](const TextureRef& texture, std::string_view) {
@@ -115,7 +115,7 @@ SceneNames scene_names(const SceneDesc& scene) {
     return names;
 }
 
-SceneHitsReport count_scene_hits(const World& world, const SceneNames& names, const WaveProfile& profile,
+SceneHitsReport count_scene_hits(const World& world, const SceneHitNames& names, const WaveProfile& profile,
                                  const RaysByKind& rays) {
     HitCounter counter(world, names);
     for (std::size_t i = 0; i < kRayKinds; ++i) {

@@ -12,18 +12,18 @@
 namespace etendue {
 
 /// Names of what surfaces belong to.
-struct SceneNames {
+struct SceneHitNames {
     std::vector<std::string> objects{};                ///< of each instance
     std::vector<std::string> materials{};              ///< of each material
     std::vector<std::vector<std::string>> textures{};  ///< images that each material names, once each
 };
 
-[[nodiscard]] SceneNames scene_names(const SceneDesc& scene);
+[[nodiscard]] SceneHitNames scene_names(const SceneDesc& scene);
 
 /// Counts the hits of all rays of `rays` that look for the nearest surface, by object, material and image, and shadow
 /// rays by the surface at which they end. The rays of `profile` are traced again; each stands for as many of its kind
 /// as were not recorded.
-[[nodiscard]] SceneHitsReport count_scene_hits(const World& world, const SceneNames& names, const WaveProfile& profile,
+[[nodiscard]] SceneHitsReport count_scene_hits(const World& world, const SceneHitNames& names, const WaveProfile& profile,
                                                const RaysByKind& rays);
 
 }  // namespace etendue

@@ -156,6 +156,25 @@ TEST_F(BatchUnits, WriteNoLayerOverAnImage) {
     EXPECT_THROW((void)collect(), SceneError);
 }
 
+// A layer that is named after a lamp of the scene.
+TEST_F(BatchUnits, WriteNoLayerOfALampOverAnImage) {
+    write_scene(folder_ / "scenes/a", R"("lights": {"Key": {"type": "point", "power": 1, "position": [0, 0, 0]}},)");
+    write_scene(folder_ / "scenes/a.light_Key");
+    options_.overrides.give("--aov", "lights");
+    EXPECT_EQ(collect().size(), 2u) << "in the image's own file";
+    options_.overrides.give("--aov-layout", "files");
+    try {
+        (void)collect();
+        ADD_FAILURE() << "a.light_Key.exr has two images";
+    } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("two files would be written to 'out/a.light_Key.exr'"),
+                  std::string::npos)
+            << error.what();
+    }
+    write_scene(folder_ / "scenes/a", R"("lights": {"Fill": {"type": "point", "power": 1, "position": [0, 0, 0]}},)");
+    EXPECT_EQ(collect().size(), 2u);
+}
+
 TEST_F(BatchUnits, WriteNoPreviewOverAnImage) {
     write_scene(folder_ / "scenes/a");
     write_scene(folder_ / "scenes/a.preview");

@@ -10,12 +10,14 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 namespace etendue::test {
@@ -455,6 +457,29 @@ TEST_F(CommandLine, WhatCannotBeWrittenEndsWithOneAtOnce) {
         EXPECT_NE(result.err.find(output), std::string::npos) << result.err;
     }
     EXPECT_TRUE(list(work_).empty());
+}
+
+// A pipe without a reader would fail, or wait, after all is rendered.
+TEST_F(CommandLine, PipesAreNoOutputs) {
+    const std::string box = scene("box");
+    const fs::path pipes = folder_ / "pipes";
+    fs::create_directories(pipes);
+    for (const char* name : {"a.exr", "b.png", "c.json", "d.partial", "report.json", "profile.json"})
+        ASSERT_EQ(::mkfifo((pipes / name).c_str(), 0600), 0);
+    const auto expect_refused = [&](const std::vector<std::string>& words, const char* pipe) {
+        const ProgramResult result = run(words);
+        EXPECT_EQ(result.exit_code, 1) << pipe;
+        EXPECT_NE(result.err.find(fmt::format("{}: it is a pipe", pipe)), std::string::npos) << result.err;
+    };
+    for (const auto& [output, pipe] : {std::pair{"a.exr", "a.exr"}, std::pair{"b.exr", "b.png"},
+                                       std::pair{"c.exr", "c.json"}, std::pair{"d.partial", "d.partial"}})
+        expect_refused({"render", box, "--spp", "1000000", "-o", pipes / output}, pipe);
+    expect_refused({"batch", box, "--spp", "1000000", "-o", pipes}, "report.json");
+    expect_refused({"compare", box, "--spp", "1000000", "-o", pipes}, "report.json");
+    expect_refused({"profile", box, "--spp", "1000000", "-o", pipes}, "profile.json");
+    ASSERT_EQ(run({"render", box, "--quiet", "-o", "image.exr"}).exit_code, 0);
+    expect_refused({"view", "image.exr", "-o", pipes / "b.png"}, "b.png");
+    expect_refused({"denoise", "image.exr", "-o", pipes / "a.exr"}, "a.exr");
 }
 
 TEST_F(CommandLine, InterruptsWriteWhatThereIs) {

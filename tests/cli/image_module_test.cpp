@@ -107,6 +107,21 @@ TEST_F(ImageModule, SaysWhichLimitIsTooLow) {
     EXPECT_FALSE(fs::exists(image_));
 }
 
+// Libraries that start within less crash, or wait for ever.
+TEST_F(ImageModule, ALimitThatIsTooLowForLibrariesIsAnError) {
+    const fs::path messages = folder_ / "messages";
+    for (const char* limit : {"-s 64", "-d 60000", "-v 550000"}) {
+        const std::string command =
+            fmt::format("bash -c \"ulimit {} && exec timeout 60 '{}' render '{}' --quiet -o '{}' 2> '{}'\"", limit,
+                        ETENDUE_PROGRAM, box_.string(), image_.string(), messages.string());
+        const int status = std::system(command.c_str());
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << limit << ": " << status;
+        EXPECT_NE(read_file(messages).find(fmt::format("raise that limit (ulimit {:.2})", limit)), std::string::npos)
+            << read_file(messages);
+    }
+    EXPECT_FALSE(fs::exists(image_));
+}
+
 TEST_F(ImageModule, AFileAboveTheLimitIsAnErrorAndNoSignal) {
     const fs::path messages = folder_ / "messages";
     const std::string command =
