@@ -72,6 +72,7 @@ PlanRow row_of(const PlannedUnit& unit) {
 
 std::string to_table(const BatchPlan& plan) {
     std::vector<PlanRow> rows{{"scene", "plan", "why", "size", "spp", "integrator", "camera", "estimate", "image"}};
+    rows.reserve(plan.size() + 1);
     for (const PlannedUnit& unit : plan) rows.push_back(row_of(unit));
     std::string text;
     for (const PlanRow& row : rows) {
@@ -145,6 +146,7 @@ std::string summary(const BatchPlan& plan) {
     for (const PlannedUnit& unit : plan)
         if (unit.is_stale()) ++counts[unit.reason];
     std::vector<std::pair<std::size_t, std::string>> reasons;
+    reasons.reserve(counts.size());
     for (const auto& [reason, count] : counts) reasons.emplace_back(count, reason);
     std::ranges::stable_sort(reasons, std::ranges::greater(), &std::pair<std::size_t, std::string>::first);
     std::string text = counted(plan);

@@ -79,6 +79,7 @@ std::vector<std::string> suffixes_of(const std::vector<std::string>& names) {
     std::set<std::string> used;
     std::map<std::string, int> numbers;
     std::vector<std::string> suffixes;
+    suffixes.reserve(names.size());
     for (const std::string& name : names) {
         const std::string part = file_part(name);
         std::string suffix = "." + part;
@@ -120,6 +121,7 @@ std::vector<ScenePart> parts_of(const fs::path& scene, const SceneNames& names) 
     if (const auto variants = distinct_names(scene, names.variants, "material variant"); !variants.empty()) {
         parts.clear();
         const std::vector<std::string> suffixes = suffixes_of(variants);
+        parts.reserve(variants.size());
         for (std::size_t i = 0; i < variants.size(); ++i)
             parts.push_back(
                 {.variant = variants[i], .variant_suffix = suffixes[i], .label = " variant " + variants[i]});

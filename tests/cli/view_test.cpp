@@ -159,7 +159,7 @@ TEST_F(View, SaysWhatIsWrong) {
     expect_refused({"view", "missing.exr", "-o", "b.png"}, 3, "missing.exr");
     expect_refused({"view", "a.exr", "-o", "no/b.png"}, 1, "there is no directory");
     expect_refused({"view", "a.exr", "-o", "b.jpg"}, 2, "must end in .png");
-    expect_refused({"view", "a.exr"}, 2, "must end in .png");
+    expect_refused({"view", "a.exr"}, 2, "--output is missing: the PNG to write, such as -o a.view.png");
     expect_refused({"view", "-o", "b.png"}, 2, "there is no file");
     expect_refused({"view", "a.exr", "-o", "b.png", "--json"}, 2, "--json");
     expect_refused({"view", "a.exr", "-o", "b.png", "--bits", "12"}, 2, "--bits");

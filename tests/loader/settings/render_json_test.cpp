@@ -116,8 +116,7 @@ TEST(RenderJson, ErrorsStateWhatIsExpected) {
         {"position": [0, 0, 1], "look_at": [0, 0, 0], "yfov": 4}, "sampler": "sobel", "focus_distance": 0})");
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "integer in [1, 16777216], but is 0", "/spp"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "a number >= 0, but is a string", "/time"));
-    EXPECT_TRUE(
-        has_problem(parsed.problems, Severity::Error, "an array of 2 integers, but is an array of 1", "/resolution"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "an array of 2 integers, but is an array of 1", "/size"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "a number in (0, 3.14159], but is 4", "/camera/yfov"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'sobol'", "/sampler"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "a number > 0", "/focus_distance"));

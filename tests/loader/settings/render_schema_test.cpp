@@ -181,7 +181,7 @@ const char* const kBad[] = {
     R"({"aovs": ["a.b=depth"]})",
     R"({"texture_memory": 8})",
     R"({"texture_memory": "8g"})",
-    R"({"texture_memory": "8GB"})",
+    R"({"texture_memory": "8K"})",
     R"({"size": 3})",
     R"({"size": [3]})",
     R"({"size": [3, 3, 3]})",
