@@ -209,6 +209,7 @@ RegionReport measure_region(const NamedRegion& region, const ComparisonReport& r
 void trim(ImageF& map) {
     const auto dropped = static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(map.pixels.size()));
     std::vector<std::size_t> order;
+    order.reserve(map.pixels.size());
     for (std::size_t i = 0; i < map.pixels.size(); ++i)
         if (std::isfinite(map.pixels[i])) order.push_back(i);
     if (dropped >= std::ssize(order)) return;
@@ -262,6 +263,7 @@ std::vector<NamedRegion> find_regions(std::span<const ImageF> untrimmed, const P
     std::vector<Candidate> candidates;
     for (const PixelRect& block : whole_blocks(window)) {
         std::vector<double> errors;
+        errors.reserve(maps.size());
         for (const ImageF& map : maps) errors.push_back(mean_of(map, {.region = within(block, window)}));
         // They could not be sorted.
         if (!std::ranges::all_of(errors, [](double error) { return std::isfinite(error); })) continue;

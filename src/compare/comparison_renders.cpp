@@ -46,12 +46,12 @@ constexpr double kCalibrationShare = 0.1;
 class TimedRender {
   public:
     TimedRender(const Variant& variant, std::uint32_t seed, const ThreadPool& threads, const RenderBudget& budget,
-                std::string title, bool quiet)
+                const std::string& title, bool quiet)
         : budget_(budget),
           area_(variant.sampling.window.area()),
           aovs_(variant.sampling.aovs),
           render_(*variant.world, *variant.integrator, with_seed(variant.sampling, seed), threads),
-          display_(std::move(title), quiet) {}
+          display_(title, quiet) {}
 
     /// One more pass, up to `last` samples. False if the time is spent, the samples are taken, or it is interrupted.
     bool advance(std::uint32_t last) {
