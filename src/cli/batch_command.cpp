@@ -38,9 +38,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::map<std::string, BatchOrder> kOrders{{"shortest", BatchOrder::Shortest},
-                                                 {"longest", BatchOrder::Longest},
-                                                 {"name", BatchOrder::Name},
-                                                 {"newest", BatchOrder::Newest}};
+                                                {"longest", BatchOrder::Longest},
+                                                {"name", BatchOrder::Name},
+                                                {"newest", BatchOrder::Newest}};
 
 /// Makes the output directory. Throws UsageError if a file is in its place, IoError if nothing can be written in it:
 /// better now than after the first image.
