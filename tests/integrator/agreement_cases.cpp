@@ -311,27 +311,27 @@ std::vector<AgreementCase> all_cases() {
                          add_lamp(scene);
                          add_culled(scene);
                      },
-                     {.max_depth = 5},
+                     {.max_depth = 4},
                      all,
-                     32,
-                     {"path", "light", "bdpt", "vcm"}});
+                     12,
+                     {"path", "light", "bdpt"}});
     cases.push_back({"CulledPane",
                      [=](SceneDesc& scene) {
                          behind_panes(scene);
                          scene.settings.cull_backfaces = true;
                      },
-                     {.max_depth = 5},
+                     {.max_depth = 4},
                      all,
-                     32,
+                     12,
                      bdpt});
     cases.push_back({"CulledBacksInFog",
                      [=](SceneDesc& scene) {
                          in_fog(scene);
                          add_culled(scene);
                      },
-                     {.max_depth = 3},
+                     {.max_depth = 2},
                      all,
-                     24,
+                     8,
                      bdpt});
     return cases;
 }
