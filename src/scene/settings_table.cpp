@@ -192,11 +192,9 @@ SettingValue byte_size_text(const std::optional<std::uint64_t>& bytes) {
     return bytes ? SettingValue(to_byte_size(*bytes)) : SettingValue();
 }
 
-/// Reads a size of memory that textures can do with: a mebibyte at least.
+/// Reads a size of memory for textures, which needs no smaller unit than mebibytes; 0 is as little as can be.
 std::optional<std::uint64_t> parse_texture_memory(std::string_view text) {
-    if (text.find('K') != std::string_view::npos) return std::nullopt;
-    const std::optional<std::uint64_t> bytes = parse_byte_size(text);
-    return bytes && *bytes > 0 ? bytes : std::nullopt;
+    return text.find('K') == std::string_view::npos ? parse_byte_size(text) : std::nullopt;
 }
 
 template <auto parse>
@@ -553,8 +551,8 @@ constexpr std::array kRows{
     Setting{
         .pointer = "/texture_memory",
         .option = "--texture-memory",
-        .type = Form{"a number of up to six digits with M, G or T behind it, such as 8G, and at least 1M",
-                     "^(?!0+[MGT])[0-9]{1,6}[MGT](i?B)?$", parses<parse_texture_memory>},
+        .type = Form{"a number of up to six digits with M, G or T behind it, such as 8G", "^[0-9]{1,6}[MGT](i?B)?$",
+                     parses<parse_texture_memory>},
         .decides = Decides::Schedule,
         .default_text = "half of the machine's",
         .help = "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as "

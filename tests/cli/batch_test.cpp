@@ -184,7 +184,7 @@ TEST_F(Batch, ADryRunSaysWhatWillFail) {
         EXPECT_EQ(result.exit_code, 3) << result.err;
         for (const char* said :
              {"unknown key 'spq'; did you mean 'spp'?", "there is no camera 'front'; there are 'main'",
-              "scenes/d/scene.gltf: not valid JSON", "; 3 will fail\n", "16x12", "path", "main"})
+              "scenes/d/scene.gltf: not valid JSON", "; 3 will fail\n", "16x12", probes ? "path" : "auto", "main"})
             EXPECT_NE(result.out.find(said), std::string::npos) << said << "\n" << result.out;
         EXPECT_TRUE(list(work_).empty());
     }

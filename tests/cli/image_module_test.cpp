@@ -147,7 +147,7 @@ TEST_F(ImageModule, AProfileIsNotLostWithItsPictures) {
 TEST_F(ImageModule, AComparisonIsNotLostWithItsPictures) {
     const BrokenLibrary broken(folder_.path());
     const ProgramResult result = run({"compare", box_.string(), "-o", "report", "--integrators", "path,naive", "--spp",
-                                      "2", "--seeds", "2", "--quiet"});
+                                      "2", "--seeds", "3", "--quiet"});
     EXPECT_EQ(result.exit_code, 1) << result.err;
     EXPECT_NE(result.err.find("OpenImageIO cannot be loaded"), std::string::npos) << result.err;
     EXPECT_NE(read_file(work_ / "report/report.json").find("\"naive\""), std::string::npos);

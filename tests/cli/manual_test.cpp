@@ -157,7 +157,7 @@ TEST_F(BashCompletion, KnowsCommands) {
 
 TEST_F(BashCompletion, KnowsTheOptionsOfEachCommand) {
     EXPECT_EQ(complete({"etendue", "render", "box", "--integ"}), Names{"--integrator"});
-    EXPECT_EQ(complete({"etendue", "inspect", "--integ"}), Names());
+    EXPECT_EQ(complete({"etendue", "diff", "--integ"}), Names());
     for (const std::string command : {"render", "batch", "view", "submit"}) {
         const Names words = complete({"etendue", command, "--"});
         EXPECT_EQ(std::set<std::string>(words.begin(), words.end()), options_of(help_of(command))) << command;

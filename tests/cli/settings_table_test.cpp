@@ -73,7 +73,7 @@ const std::map<std::string_view, Samples> kForms{
     {"/robust", {{"mon:3", "mon:5", "mean", "mon:31"}, {"mon:1", "mon:4", "mon:33", "median"}}},
     {"/integrator/connections",
      {{"cache:1", "cache:2", "pairwise", "cache:999"}, {"cache:0", "cache:1000", "cache:", "all"}}},
-    {"/texture_memory", {{"1M", "2M", "999999T"}, {"1", "M", "1K", "0G", "-1G", "1.5G", "1000000M"}}},
+    {"/texture_memory", {{"1M", "2M", "999999T"}, {"1", "M", "1K", "-1G", "1.5G", "1000000M"}}},
 };
 
 Samples samples_of(const Setting& setting) {

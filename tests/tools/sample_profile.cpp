@@ -56,8 +56,8 @@ std::vector<TileReport> make_tiles(int threads, double seconds_per_cost) {
                 const double jitter = 1.0 + 0.1 * std::sin(12.9898 * x + 78.233 * y + 7.0 * samples);
                 const double seconds = seconds_per_cost * jitter * cost_at(x + 16.0, y + 16.0) *
                                        static_cast<double>(rect.area()) * samples;
-                tiles.push_back(
-                    {rect, static_cast<int>(thread - free_at.begin()), first_sample, *thread, *thread + seconds});
+                tiles.push_back({rect, static_cast<int>(thread - free_at.begin()), first_sample, *thread,
+                                 *thread + seconds, 0.97 * seconds, rect.area() * samples});
                 *thread += seconds;
             }
         const double end = *std::max_element(free_at.begin(), free_at.end());

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 INTEGRATORS = (
+    ("auto", "Automatic", "Path tracing, bidirectional or vertex merging: what a short pilot finds to be quickest"),
     ("path", "Path tracing", "From the camera; lights are sampled at every surface"),
     ("bdpt", "Bidirectional", "From the camera and from the lights: light through doors, simple caustics"),
     ("vcm", "Vertex merging", "Bidirectional, with merging: caustics under water, in mirrors and through glass"),
@@ -19,7 +20,7 @@ INTEGRATORS = (
 
 
 class EtendueSceneSettings(bpy.types.PropertyGroup):
-    integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="path", description="How light is found")
+    integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="auto", description="How light is found")
     samples: IntProperty(name="Samples", default=128, min=1, soft_max=4096, max=16777216,
                          description="Samples of each pixel; with an error to reach, the most of them")
     time: FloatProperty(name="Time Limit", default=0.0, min=0.0, unit="TIME_ABSOLUTE", step=100,

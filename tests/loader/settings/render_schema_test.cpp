@@ -80,6 +80,8 @@ const char* const kGood[] = {
     R"({"aovs": [], "aov_layout": "parts"})",
     R"({"aovs": ["depth", "N:half", "caustics=lpe:C D S+ L:float", "key-2=light:key*"], "aov_layout": "layers"})",
     R"({"texture_memory": "8G"})",
+    R"({"accelerator": "kdtree", "cull_backfaces": true})",
+    R"({"mist": {"start": 0, "depth": 0.5, "falloff": "linear"}})",
     R"({"texture_memory": "000512M"})",
     R"({"size": [1, 65536], "crop": [0, 0, 1, 1]})",
     R"({"camera": "main", "lens_radius": 0, "focus_distance": 3})",
