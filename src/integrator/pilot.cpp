@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -129,27 +129,36 @@ SampleWork take_samples(const World& world, const IntegratorSettings& settings, 
     std::vector<CameraSample> samples(job.rect.area());
     std::vector<Ray> rays(samples.size());
     generate_camera_rays(world, job, 0, samples, rays);
-    std::vector<std::optional<ComparedSample>> subpaths(samples.size());
-    threads.parallel_for(samples.size(), [&](std::size_t i, int) {
+    const auto compared = [&](std::size_t i) {
         const EyeSample eye{.ray = rays[i],
                             .cone = camera_cone(world, job.full_width, job.full_height, rays[i]),
                             .numbers = {job.sequence, samples[i].key},
                             .lens = samples[i].lens};
-        subpaths[i].emplace(world, eye, settings,
-                            BidirectionalSetup{.merging = job.merging, .shared = shared_key(job, samples[i].key)});
-    });
+        return ComparedSample(world, eye, settings,
+                              {.merging = job.merging, .shared = shared_key(job, samples[i].key)});
+    };
+    const auto width = static_cast<std::size_t>(job.full_width);
+    const std::size_t height = samples.size() / width;
+    const auto for_each_row = [&](const std::function<void(std::size_t row, std::size_t sample)>& take) {
+        threads.parallel_for(height, [&](std::size_t row, int) {
+            for (std::size_t i = row * width; i < (row + 1) * width; ++i) take(row, i);
+        });
+    };
+    // Subpaths are followed twice rather than kept: those in media are long.
     ComparedSample::Photons photons;
-    for (const auto& sample : subpaths) sample->append_photons(photons);
+    if (job.merging.merges()) {
+        std::vector<ComparedSample::Photons> of_rows(height);
+        for_each_row([&](std::size_t row, std::size_t i) { compared(i).append_photons(of_rows[row]); });
+        for (const ComparedSample::Photons& of_row : of_rows) photons.append(of_row);
+    }
     std::vector<std::vector<Photon>> lists(1, photons.all);
     const PhotonMap map(std::move(lists), job.merging.radius);
-    const auto width = static_cast<std::size_t>(job.full_width);
-    std::vector<RowFindings> rows(samples.size() / width);
-    threads.parallel_for(rows.size(), [&](std::size_t row, int) {
-        for (std::size_t i = row * width; i < (row + 1) * width; ++i)
-            rows[row].of_samples.push_back(
-                subpaths[i]->compare(map, photons, rows[row].work, [&](const ComparedLight& light, const Vec2f& place) {
-                    rows[row].from_lights.emplace_back(film.pixel_at(place), light);
-                }));
+    std::vector<RowFindings> rows(height);
+    for_each_row([&](std::size_t row, std::size_t i) {
+        rows[row].of_samples.push_back(
+            compared(i).compare(map, photons, rows[row].work, [&](const ComparedLight& light, const Vec2f& place) {
+                rows[row].from_lights.emplace_back(film.pixel_at(place), light);
+            }));
     });
     SampleWork work;
     std::size_t taken = 0;

@@ -34,6 +34,18 @@ ComparedLight compared(const StrategyLight& found, double of_path, double of_bdp
     return result;
 }
 
+/// Bounds the vertices of a subpath that are looked at: walks in media may have hundreds, all of which are connected.
+constexpr std::size_t kMostVertices = 8;
+
+double in_media(const std::vector<SubpathVertex>& vertices) {
+    return static_cast<double>(std::ranges::count(vertices, Vertex::Kind::Medium, &SubpathVertex::kind));
+}
+
+template <typename T>
+void cut_short(std::vector<T>& vertices) {
+    if (vertices.size() > kMostVertices) vertices.erase(vertices.begin() + kMostVertices, vertices.end());
+}
+
 /// Returns by how much all strategies of `bdpt` together make a path more densely than one that compares itself with
 /// the others by `sums`.
 double all_of(const StrategySums& sums) {
@@ -85,6 +97,7 @@ SubpathSample ComparedSample::sample(const Merging& merging, bool counts_path_tr
 ComparedSample::Subpaths ComparedSample::follow(const SubpathSample& sample) const {
     const SparedRays spared = spared_rays(lengths_.roulette_depth);
     Subpaths subpaths;
+    double light_rays = 0.0;
     subpaths.eye = follow_subpath(sample, begin_subpath_at_eye(sample), spared.of_eye,
                                   [&](const Subpath& subpath, const Vertex& vertex, const SubpathDensities& arrived) {
                                       subpaths.met.push_back({subpath, vertex, arrived});
@@ -93,8 +106,28 @@ ComparedSample::Subpaths ComparedSample::follow(const SubpathSample& sample) con
     if (from_light && leads_to_camera(sample, *from_light))
         subpaths.light =
             follow_subpath(sample, *from_light, spared.of_light,
-                           [&](const Subpath&, const Vertex&, const SubpathDensities&) { ++subpaths.light_rays; });
+                           [&](const Subpath&, const Vertex&, const SubpathDensities&) { light_rays += 1.0; });
+    const auto eye = static_cast<double>(subpaths.eye.size());
+    const auto light = static_cast<double>(subpaths.light.size());
+    // Rays that end in a medium arrive at nothing.
+    subpaths.work = {.eye_rays = static_cast<double>(subpaths.met.size()) + in_media(subpaths.eye),
+                     .light_samples = eye,
+                     .light_rays = light_rays + in_media(subpaths.light),
+                     .connections = (eye + 1.0) * light};
+    cut_short(subpaths.met);
+    cut_short(subpaths.eye);
+    cut_short(subpaths.light);
     return subpaths;
+}
+
+void ComparedSample::Photons::append(const Photons& others) {
+    const auto before = static_cast<std::uint32_t>(all.size());
+    for (Photon photon : others.all) {
+        photon.first_word += before;
+        all.push_back(photon);
+    }
+    unmerged.insert(unmerged.end(), others.unmerged.begin(), others.unmerged.end());
+    of_path_tracing.insert(of_path_tracing.end(), others.of_path_tracing.begin(), others.of_path_tracing.end());
 }
 
 void ComparedSample::append_photons(Photons& photons) const {
@@ -187,10 +220,7 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
 
 ComparedLight ComparedSample::compare(const PhotonMap& map, const Photons& photons, SampleWork& work,
                                       const HearLight& hear) const {
-    work.eye_rays += static_cast<double>(all_.met.size());
-    work.light_samples += static_cast<double>(all_.eye.size());
-    work.light_rays += static_cast<double>(all_.light_rays);
-    work.connections += static_cast<double>((all_.eye.size() + 1) * all_.light.size());
+    work.add(all_.work);
 
     ComparedLight sum;
     LightOfPath by_path;

@@ -63,6 +63,8 @@ class ComparedSample {
         std::vector<Photon> all;  ///< `first_word` is their index
         std::vector<SubpathDensities> unmerged;
         std::vector<SubpathDensities> of_path_tracing;
+
+        void append(const Photons& others);
     };
 
     /// Appends the photons that the light subpath leaves.
@@ -84,7 +86,7 @@ class ComparedSample {
     struct Subpaths {
         std::vector<Met> met;
         std::vector<SubpathVertex> eye, light;
-        int light_rays = 0;
+        SampleWork work;
     };
 
     /// Sums the light that path tracing finds at all vertices of a path, which varies together; but for fireflies,
