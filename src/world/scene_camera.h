@@ -4,6 +4,7 @@
 #include "camera/camera.h"
 #include "core/bounds.h"
 #include "core/ray.h"
+#include "world/hit.h"
 #include "world/scene_traits.h"
 #include "world/world_data.h"
 
