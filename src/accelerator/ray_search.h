@@ -39,7 +39,7 @@ class RaySearch {
     [[nodiscard]] const TriangleHit& nearest() const { return nearest_; }
 
   private:
-    /// Of triangles that are equally far away the first counts, so that the order in which they come does not.
+    /// Returns true if `hit` is nearer than the nearest so far, or as near and of a triangle that comes before it.
     [[nodiscard]] bool is_before(const TriangleHit& hit) const {
         return hit.t < nearest_.t || (hit.t == nearest_.t && hit.triangle < nearest_.triangle);
     }

@@ -30,7 +30,7 @@ void write_data_files(const std::filesystem::path& directory, const ComparisonRe
 void write_reference(const std::filesystem::path& path, const Reference& reference, const ComparisonReport& report,
                      const ColorConfig& colors);
 
-/// What a reference that `write_reference` wrote says of itself.
+/// Holds what a file of `write_reference` says of its image.
 struct PooledOrigin {
     double noise_rel_mse = kUnknown;
     SeedRange seeds{};

@@ -15,7 +15,7 @@ namespace etendue {
 
 namespace {
 
-/// What a repetition took of one sample, in logarithms.
+/// Returns the logarithm of the seconds that repetitions took for a sample.
 LogEstimate log_times(const ProfileRun& run) {
     const auto count = static_cast<double>(run.cpu_seconds.size());
     const auto logarithm = [&](double seconds) { return std::log(seconds / static_cast<double>(run.samples)); };

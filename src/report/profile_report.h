@@ -47,8 +47,8 @@ struct LampReport {
     double blocked = 0.0;  ///< shadow rays of these that met something before
 };
 
-/// What rays met, by names of the scene, the most first: estimates from the rays that were recorded. Times are not
-/// shared out so, as paths of many materials are traced together.
+/// Counts what rays met, by names of the scene, the most first; these are estimates from the rays that were recorded.
+/// Times have no such shares, as paths of many materials are traced together.
 struct SceneHitsReport {
     std::vector<NamedValue> materials{};
     std::vector<NamedValue> objects{};

@@ -49,8 +49,8 @@ Json span_event(const std::string& name, const char* category, std::size_t proce
             {"dur", std::max(0.0, seconds) * kMicroseconds}};
 }
 
-/// What follows each other in one row, such as phases of the start, or stages: sums over all threads, not when they
-/// were.
+/// Adds parts one after the other in a row, such as phases of the start or stages: they are sums over all threads, and
+/// the row does not show when they were.
 void add_in_turn(const std::function<void(const Json&)>& add, const std::vector<NamedValue>& parts,
                  const char* category, std::size_t process, int thread) {
     double start = 0.0;
