@@ -140,7 +140,7 @@ std::string different_light(const Variant& a, const Variant& b) {
         if (!find_integrator(variant->settings.integrator.type)->shows_light)
             return fmt::format("'{}' shows something else than light", variant->name);
         if (const auto& strategy = variant->settings.integrator.strategy)
-            return fmt::format("'{}' shows the strategy {},{} alone", variant->name, strategy->s, strategy->t);
+            return fmt::format("'{}' shows the strategy {} alone", variant->name, strategy_text(*strategy));
     }
     if (a.settings.clamp_indirect != b.settings.clamp_indirect)
         return fmt::format("'{}' and '{}' limit indirect light differently", a.name, b.name);

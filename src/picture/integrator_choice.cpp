@@ -45,7 +45,8 @@ std::vector<std::string> integrators_to_choose(const RenderSettings& settings) {
     for (const std::string_view name : kComparedNames) {
         RenderSettings with = settings;
         with.integrator.type = name;
-        if (settings.integrator.strategy && !has_strategies(with.integrator.type)) continue;
+        const auto& strategy = settings.integrator.strategy;
+        if (strategy && !shows_strategy(with.integrator.type, *strategy)) continue;
         (void)create_integrator(with);
         integrators.emplace_back(name);
     }

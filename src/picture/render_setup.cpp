@@ -104,6 +104,10 @@ bool has_strategies(const std::string& integrator) {
     return entry != nullptr && entry->has_strategies();
 }
 
+bool shows_strategy(const std::string& integrator, const Strategy& strategy) {
+    return has_strategies(integrator) && (strategy != kMerges || find_integrator(integrator)->merges);
+}
+
 void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for) {
     const std::string& type = settings.integrator.type;
     if (has_strategies(type)) return;
@@ -157,7 +161,13 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
     if (!integrator)
         throw SceneError(settings.at("/integrator/type"),
                          fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
-    if (s.strategy) require_strategies(settings, settings.at("/integrator/strategy"));
+    if (s.strategy) {
+        require_strategies(settings, settings.at(std::string(kStrategySetting)));
+        if (!shows_strategy(s.type, *s.strategy))
+            throw SceneError(settings.at(std::string(kStrategySetting)),
+                             fmt::format("'{}' merges nothing; these do: {}", s.type,
+                                         names_of([](const IntegratorEntry& entry) { return entry.merges; })));
+    }
     return integrator;
 }
 

@@ -38,6 +38,9 @@ namespace etendue {
 /// True if the integrator of this name has strategies.
 [[nodiscard]] bool has_strategies(const std::string& integrator);
 
+/// True if the integrator of this name can show `strategy` alone.
+[[nodiscard]] bool shows_strategy(const std::string& integrator, const Strategy& strategy);
+
 /// Throws SceneError that blames `asked_for` if the integrator that the settings ask for has no strategies.
 void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for);
 

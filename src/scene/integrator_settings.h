@@ -36,6 +36,7 @@ struct Strategy {
 
 /// Stands for all merges (transport/merging.h), which are no strategies of bidirectional path tracing.
 inline constexpr Strategy kMerges{0, 0};
+inline constexpr std::string_view kMergesName = "merging";
 
 /// Says which vertices of both subpaths merge.
 enum class MergeAt : std::uint8_t {
@@ -62,7 +63,7 @@ struct IntegratorSettings {
     std::uint32_t light_samples = 1;
     /// Says how bidirectional path tracing weighs its strategies against each other.
     Heuristic heuristic = Heuristic::Balance;
-    /// Names the one strategy of bidirectional path tracing that makes the image; none for all strategies.
+    /// Names the one strategy of bidirectional path tracing that makes the image, or kMerges; none for all strategies.
     std::optional<Strategy> strategy{};
     /// Says whether bidirectional path tracing weighs `strategy` against the other strategies; if not, `strategy` is
     /// all there is.

@@ -28,6 +28,12 @@ inline constexpr std::string_view kConnectionsForm = "pairwise or cache:N, N fro
 /// `IntegratorSettings::cached_connections` in that form; nothing if `text` is not.
 [[nodiscard]] std::optional<int> parse_connections(std::string_view text);
 
+inline constexpr std::string_view kStrategyForm = "S,T, the vertices from the light and the eye, or merging";
+/// Reads a strategy in that form; nothing if `text` is not.
+[[nodiscard]] std::optional<Strategy> parse_strategy(std::string_view text);
+/// Returns the form that `parse_strategy` reads.
+[[nodiscard]] std::string strategy_text(const Strategy& strategy);
+
 /// Buckets of the median of means: an odd number, so that there is a middle one (and see BucketLayers).
 inline constexpr int kLeastBuckets = 3;
 inline constexpr int kMostBuckets = 31;

@@ -76,7 +76,7 @@ SettingValue to_value(const std::array<int, N>& value) {
     return std::vector<std::int64_t>(value.begin(), value.end());
 }
 SettingValue to_value(const Strategy& value) {
-    return std::vector<std::int64_t>{value.s, value.t};
+    return strategy_text(value);
 }
 SettingValue to_value(const std::vector<std::string>& value) {
     return value;
@@ -109,8 +109,7 @@ Held from_value(const SettingValue& value) {
         return {static_cast<double>(static_cast<float>(times.at(0))),
                 static_cast<double>(static_cast<float>(times.at(1)))};
     } else if constexpr (std::is_same_v<Held, Strategy>) {
-        const auto& numbers = std::get<std::vector<std::int64_t>>(value);
-        return {static_cast<int>(numbers.at(0)), static_cast<int>(numbers.at(1))};
+        return parse_strategy(std::get<std::string>(value)).value();
     } else if constexpr (std::is_same_v<Held, FrameRange>) {
         const auto& numbers = std::get<std::vector<std::int64_t>>(value);
         return {static_cast<int>(numbers.at(0)), static_cast<int>(numbers.at(1)),
@@ -467,18 +466,19 @@ constexpr std::array kRows{
             .place = named_at<kHeuristicNames>([](auto& s) -> auto& { return s.integrator.heuristic; })},
     Setting{.pointer = "/integrator/strategy",
             .option = "--strategy",
-            .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
+            .type = Form{kStrategyForm, "^([0-9]+,[0-9]+|merging)$", parses<parse_strategy>},
             .decides = Decides::Samples,
             .default_text = "all",
             .help = "Show only paths of `bdpt` or `vcm` with S vertices from the light and T from the eye, counting "
-                    "those on the light and on the lens",
+                    "those on the light and on the lens; or `merging`, those that `vcm` merges",
+            .page = "integrators.md#one-strategy-at-a-time",
             .place = at([](auto& s) -> auto& { return s.integrator.strategy; })},
     Setting{
         .pointer = "/integrator/weighted",
         .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},
         .decides = Decides::Samples,
         .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
-                "if no other strategy made them",
+                "if no other strategy made them, and merges are photon mapping's: at the first vertex that merges",
         .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
     Setting{
         .pointer = "/integrator/connections",

@@ -193,7 +193,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                                    integrator.lengths.min_depth, integrator.lengths.max_depth));
     }
     if (integrator.strategy) {
-        if (const Strategy& strategy = *integrator.strategy; !strategy.exists())
+        if (const Strategy& strategy = *integrator.strategy; strategy != kMerges && !strategy.exists())
             problems.error(settings.at("/integrator/strategy"),
                            fmt::format("there is no strategy {},{}: s >= 0 vertices from the light and t >= 1 from the "
                                        "eye make a path of s + t - 1 >= 1 edges",

@@ -13,7 +13,10 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
         sentences.push_back(fmt::format(
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
             settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
-    const bool merges = merging_.at != MergeAt::Nothing && !settings_.strategy;
+    if (settings_.strategy == kMerges && merging_.at != MergeAt::Everywhere &&
+        (merging_.at == MergeAt::Nothing || !world.traits().has_specular_surfaces))
+        sentences.emplace_back("the image stays black: no vertices merge; '--merge all' merges everywhere");
+    const bool merges = merging_.at != MergeAt::Nothing && settings_.strategy.value_or(kMerges) == kMerges;
     if (world.traits().has_delta_lights && world.traits().has_specular_surfaces && !merges)
         sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "

@@ -93,7 +93,9 @@ void BdptWave::merge(const BdptJob& job) {
     const SharedPhotons& photons = *job.job.photons;
     const MisContext mis = job.mis();
     for (std::uint32_t v = 0; v < eye_.vertices().all().size(); ++v) {
-        if (!eye_.vertices().all()[v].merges) continue;
+        const PathVertex& found = eye_.vertices().all()[v];
+        // Without weights a path is to be found once.
+        if (!found.merges || (!job.settings.weighted && !found.is_seen_directly)) continue;
         const PathVertex& eye = eye_.vertices().whole(v);
         const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position), eye.clearance};
         photons.map().for_each_in(kernel, [&](const Photon& photon) {
@@ -106,7 +108,8 @@ void BdptWave::merge(const BdptJob& job) {
             if (eye_.vertices().words().are_followed())
                 eye_.vertices().words().join(eye_.vertices().words_after(eye, photon.direction), photons.words(),
                                              {photon.first_word, photon.word_count}, shares_);
-            found_.add(eye.slot, light, LightKind::Indirect, shares_);
+            const bool is_direct = photon.edges == 1 && eye.is_seen_directly;
+            found_.add(eye.slot, light, is_direct ? LightKind::Direct : LightKind::Indirect, shares_);
         });
     }
     stamp(job.job.profile, Stage::Mis);

@@ -4,6 +4,7 @@
 #include "integrator/agreement_room.h"
 #include "integrator/bdpt/bdpt_integrator.h"
 #include "integrator/bdpt/render_bdpt.h"
+#include "integrator/path/path_integrator.h"
 #include "support/chi2.h"
 #include "wave/aov/layered_render.h"
 #include "world/test_scene.h"
@@ -88,6 +89,38 @@ TEST(Merging, FindsWhatASpotSendsThroughAPlateTwice) {
     EXPECT_NEAR(mean(MergeAt::BetweenDeltas), expected, 0.02 * expected);
     EXPECT_NEAR(mean(MergeAt::Everywhere), expected, 0.02 * expected);
     EXPECT_EQ(mean(MergeAt::Nothing), 0.0);
+}
+
+IntegratorSettings merges_alone(bool weighted) {
+    return {.lengths = {.max_depth = 6}, .strategy = kMerges, .weighted = weighted};
+}
+
+// The light that both kinds of merges can find is the plate's: seen by two refractions, lit by two.
+TEST(Merging, AloneFindsWhatNothingElseDoes) {
+    const World world = compile(plate_over_floor(0.2f));
+    const double expected = light_through_plate();
+    for (const bool weighted : {true, false})
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(merges_alone(weighted), nullptr, {}), 32), expected,
+                    0.02 * expected);
+}
+
+// A grey box, lit by a lamp that the camera does not see: one way to each path, wherever subpaths could merge.
+TEST(Merging, AloneAndWithoutWeightsIsPhotonMapping) {
+    SceneDesc scene = empty_scene();
+    const Handle<MaterialDesc> grey = add_material(scene, diffuse(Rgb(0.6f)));
+    add_object(scene, quad({0, 0, 0}, {0, 0, 2}, {2, 0, 0}), grey);
+    add_object(scene, quad({0, 2, -2}, {2, 0, 0}, {0, 2, 0}), grey);
+    add_object(scene, quad({0, 2, 2}, {0, 2, 0}, {2, 0, 0}), grey);
+    scene.lights.push_back(light(LightType::Point, 10.0f, translation({0.5f, 1.5f, 0.25f})));
+    look_down(scene, 3.0f, 2.0f);
+    const World world = compile(std::move(scene));
+    const double expected = mean_of_render(world, PathIntegrator({.lengths = {.max_depth = 6}}), 64);
+    const auto mean = [&](const IntegratorSettings& settings) {
+        return mean_of_render(world, BdptIntegrator(settings, nullptr, {.at = MergeAt::Everywhere}), 256);
+    };
+    // Some fifty thousand photons lie in view, and light of one lies in a few pixels of each sample: within 0.5%.
+    EXPECT_NEAR(mean(merges_alone(false)), expected, 0.02 * expected);
+    EXPECT_LT(mean(merges_alone(true)), 0.5 * expected);
 }
 
 TEST(Merging, BoundsThePhotonsOfLargeImages) {

@@ -51,7 +51,7 @@ TEST(RenderJson, DefaultsStayWhenNothingIsSaid) {
 TEST(RenderJson, EverySettingIsRead) {
     const Parsed parsed = parse(R"({
         "scene": "x.glb", "integrator": {"type": "direct", "max_depth": 7, "min_depth": 2, "roulette_depth": 6, "light_samples": 5,
-                       "heuristic": "power", "strategy": [2, 3], "weighted": false, "connections": "cache:4"},
+                       "heuristic": "power", "strategy": "2,3", "weighted": false, "connections": "cache:4"},
         "sampler": "random", "spp": 9, "seed": 4294967295, "time": 1.5, "error": 0.25, "adaptive": false, "min_spp": 70, "size": [30, 20], "crop": [1, 2, 3, 4],
         "light_units": "radiometric", "camera": "c", "lens_radius": 0.5, "focus_distance": 4,
         "film": {"filter": "mitchell", "filter_radius": 2.5},
