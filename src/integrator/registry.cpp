@@ -36,12 +36,14 @@ std::unique_ptr<const Integrator> make_vcm(const IntegratorSettings& settings) {
 }
 
 constexpr std::string_view kLampImages = "/integrator/lamp_images";
+constexpr std::string_view kAimedEmission = "/integrator/aimed_emission";
+constexpr std::string_view kOfLightPaths[] = {kAimedEmission};
 constexpr std::string_view kOfSplitting[] = {"/integrator/light_samples", kLampImages};
-constexpr std::string_view kOfStrategies[] = {"/integrator/heuristic", kStrategySetting, "/integrator/weighted",
-                                              "/integrator/connections", kLampImages};
+constexpr std::string_view kOfStrategies[] = {"/integrator/heuristic",   kStrategySetting, "/integrator/weighted",
+                                              "/integrator/connections", kLampImages,      kAimedEmission};
 constexpr std::string_view kOfMerging[] = {"/integrator/heuristic",   kStrategySetting,    "/integrator/weighted",
                                            "/integrator/connections", "/integrator/merge", "/integrator/merge_radius",
-                                           "/integrator/merge_alpha", kLampImages};
+                                           "/integrator/merge_alpha", kLampImages,         kAimedEmission};
 
 constexpr IntegratorEntry kRegistry[] = {
     {.name = "path",
@@ -56,7 +58,10 @@ constexpr IntegratorEntry kRegistry[] = {
     {.name = "naive",
      .summary = "eye paths that find lights by chance",
      .make = [](const IntegratorSettings& settings) { return make_naive(settings); }},
-    {.name = "light", .summary = "paths from the lights, connected to the camera", .make = make<LightIntegrator>},
+    {.name = "light",
+     .summary = "paths from the lights, connected to the camera",
+     .make = make<LightIntegrator>,
+     .own_settings = kOfLightPaths},
     {.name = "bdpt",
      .summary = "eye and light paths, connected in every way, combined by MIS",
      .make = make<BdptIntegrator>,

@@ -36,6 +36,25 @@ float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, 
     return std::visit([&](const auto& l) { return l.emission_pdf(direction, cos_light, scene); }, light);
 }
 
+std::optional<LightCone<float>> light_cone(const Light& light, std::uint32_t triangle) {
+    return std::visit(
+        [&]<typename Kind>(const Kind& l) -> std::optional<LightCone<float>> {
+            if constexpr (Kind::is_at_infinity())
+                return std::nullopt;
+            else
+                return l.cone(triangle);
+        },
+        light);
+}
+
+void turn_emission(const Light& light, EmissionSample& sample, const Vec3f& direction) {
+    std::visit(
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (!Kind::is_at_infinity()) l.turn(sample, direction);
+        },
+        light);
+}
+
 bool is_delta_light(const Light& light) {
     return std::visit([](const auto& l) { return l.is_delta(); }, light);
 }

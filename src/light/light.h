@@ -4,6 +4,7 @@
 #pragma once
 
 #include "light/environment_light.h"
+#include "light/light_aim.h"
 #include "light/light_bounds.h"
 #include "light/mesh_light.h"
 #include "light/profile_light.h"
@@ -38,6 +39,12 @@ void sample_environment_compensated(const Light& light, std::span<const Vec2f> u
 /// 1/sr, or at infinity the place where the ray passes once the direction is given, 1/m² across it. `cos_light`:
 /// between the direction and the geometric normal of a mesh light's front.
 [[nodiscard]] float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, const SceneSphere& scene);
+/// Returns the directions into which a point of the light shines, for a mesh light one on `triangle`; none for lights
+/// at infinity.
+[[nodiscard]] std::optional<LightCone<float>> light_cone(const Light& light, std::uint32_t triangle);
+/// Has `sample`, of a light that is not at infinity, leave along `direction` from where it is: with the radiance, the
+/// cosine and the light's own density of that direction.
+void turn_emission(const Light& light, EmissionSample& sample, const Vec3f& direction);
 /// Returns whether no ray meets the light by chance: it has no extent, or is only ever sampled.
 [[nodiscard]] bool is_delta_light(const Light& light);
 /// Returns the bytes that the light holds beside itself: triangles, images and tables.

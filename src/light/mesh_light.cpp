@@ -111,6 +111,21 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
     return sample;
 }
 
+LightCone<float> MeshLight::cone(std::uint32_t triangle) const {
+    return {faces_[triangle].normal, two_sided_ ? -1.0f : std::cos(beam_.half_angle())};
+}
+
+void MeshLight::turn(EmissionSample& sample, const Vec3f& direction) const {
+    const Face& face = faces_[sample.triangle];
+    const float cosine = dot(face.normal, direction);
+    const bool is_back = two_sided_ && cosine < 0.0f;
+    sample.direction = direction;
+    sample.offset = face.normal * (is_back ? -face.clearance : face.clearance);
+    sample.cos_theta = is_back ? -cosine : cosine;
+    sample.pdf_direction_solid_angle = emission_pdf(direction, cosine, {});
+    sample.radiance = sample.pdf_direction_solid_angle > 0.0f ? radiance_ : Rgb();
+}
+
 float MeshLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&) const {
     return any_front().emission_pdf_solid_angle(cos_light) * beam_.density_factor(cos_light);
 }

@@ -13,6 +13,7 @@
 #include "core/vector_bytes.h"
 #include "light/beam.h"
 #include "light/emission_sample.h"
+#include "light/light_aim.h"
 #include "light/light_bounds.h"
 #include "light/light_sample.h"
 #include "sampling/alias_table.h"
@@ -56,6 +57,8 @@ struct LightTriangleFront {
         const T cosine = max(cos_light, -cos_light * back);
         return select(cosine > T(0.0f), distance * distance / (area * cosine), T(0.0f));
     }
+    /// Returns the directions into which the triangle shines, if its light has no beam.
+    [[nodiscard]] LightCone<T> cone() const { return {normal, -back}; }
     /// Returns the density of rays that leave the light from a given point, 1/sr.
     [[nodiscard]] T emission_pdf_solid_angle(T cos_light) const {
         // Of rays from two sides half leave each.
@@ -132,6 +135,8 @@ class MeshLight {
     /// Uniform over the area, by the cosine over the directions of each side that emits, within the beam.
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
+    [[nodiscard]] LightCone<float> cone(std::uint32_t triangle) const;
+    void turn(EmissionSample& sample, const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
     /// Returns bounds as if every point of the mesh shone as much as any other.
     [[nodiscard]] LightBounds bounds() const;

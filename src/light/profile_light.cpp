@@ -24,12 +24,26 @@ float ProfileLight::emission_pdf(const Vec3f& direction, float, const SceneSpher
 }
 
 EmissionSample ProfileLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
-    const SpotLight* spot = std::get_if<SpotLight>(&lamp);
     EmissionSample sample = sample_emission_in_cone(position(), -frame.normal, cos_emission(), u.direction);
-    sample.radiance = spot != nullptr ? spot->intensity * spot->falloff(dot(sample.direction, spot->axis))
-                                      : std::get<PointLight>(lamp).intensity;
-    sample.radiance *= profile->candela(frame.to_local(sample.direction));
+    sample.radiance = intensity(sample.direction);
     return sample;
+}
+
+LightCone<float> ProfileLight::cone(std::uint32_t) const {
+    return {-frame.normal, cos_emission()};
+}
+
+void ProfileLight::turn(EmissionSample& sample, const Vec3f& direction) const {
+    sample.direction = direction;
+    sample.radiance = intensity(direction);
+    sample.pdf_direction_solid_angle = emission_pdf(direction, 1.0f, {});
+}
+
+Rgb ProfileLight::intensity(const Vec3f& direction) const {
+    const SpotLight* spot = std::get_if<SpotLight>(&lamp);
+    const Rgb even = spot != nullptr ? spot->intensity * spot->falloff(dot(direction, spot->axis))
+                                     : std::get<PointLight>(lamp).intensity;
+    return even * profile->candela(frame.to_local(direction));
 }
 
 LightBounds ProfileLight::bounds() const {

@@ -6,6 +6,7 @@
 #include "light/punctual_light.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -22,6 +23,8 @@ struct ProfileLight {
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
+    [[nodiscard]] LightCone<float> cone(std::uint32_t) const;
+    void turn(EmissionSample& sample, const Vec3f& direction) const;
     /// Returns the power by a rule of 1,024 points over the vertical angle: near enough for a choice, and exact to some
     /// 1e-5 for profiles as they are measured.
     [[nodiscard]] float power(float scene_radius) const;
@@ -38,6 +41,8 @@ struct ProfileLight {
     [[nodiscard]] Vec3f position() const {
         return std::visit([](const auto& l) { return l.position; }, lamp);
     }
+    /// Returns the intensity along `direction`, W/sr.
+    [[nodiscard]] Rgb intensity(const Vec3f& direction) const;
     /// Returns the cosine of the half angle of the cone into which the profile, and the spot, have any light.
     [[nodiscard]] float cos_emission() const;
 };

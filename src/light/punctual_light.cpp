@@ -42,6 +42,16 @@ float PointLight::emission_pdf(const Vec3f& direction, float, const SceneSphere&
     return emission_in_cone_pdf_solid_angle(direction, {0.0f, 0.0f, 1.0f}, -1.0f);
 }
 
+LightCone<float> PointLight::cone(std::uint32_t) const {
+    return {{0.0f, 0.0f, 1.0f}, -1.0f};
+}
+
+void PointLight::turn(EmissionSample& sample, const Vec3f& direction) const {
+    sample.direction = direction;
+    sample.radiance = intensity;
+    sample.pdf_direction_solid_angle = emission_pdf(direction, 1.0f, {});
+}
+
 float PointLight::power(float) const {
     return 4.0f * kPi * average(intensity);
 }
@@ -65,6 +75,16 @@ EmissionSample SpotLight::sample_emission(const EmissionNumbers& u, const SceneS
 
 float SpotLight::emission_pdf(const Vec3f& direction, float, const SceneSphere&) const {
     return emission_in_cone_pdf_solid_angle(direction, axis, cos_outer);
+}
+
+LightCone<float> SpotLight::cone(std::uint32_t) const {
+    return {axis, cos_outer};
+}
+
+void SpotLight::turn(EmissionSample& sample, const Vec3f& direction) const {
+    sample.direction = direction;
+    sample.radiance = intensity * falloff(dot(direction, axis));
+    sample.pdf_direction_solid_angle = emission_pdf(direction, 1.0f, {});
 }
 
 float SpotLight::power(float) const {

@@ -3,10 +3,12 @@
 
 #include "light/beam.h"
 #include "light/emission_sample.h"
+#include "light/light_aim.h"
 #include "light/light_bounds.h"
 #include "light/light_sample.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace etendue {
@@ -19,6 +21,8 @@ struct PointLight {
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
+    [[nodiscard]] LightCone<float> cone(std::uint32_t) const;
+    void turn(EmissionSample& sample, const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] LightBounds bounds() const;
     [[nodiscard]] std::optional<Vec3f> point() const { return position; }
@@ -41,6 +45,8 @@ struct SpotLight {
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
+    [[nodiscard]] LightCone<float> cone(std::uint32_t) const;
+    void turn(EmissionSample& sample, const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] LightBounds bounds() const;
     [[nodiscard]] std::optional<Vec3f> point() const { return position; }

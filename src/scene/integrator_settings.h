@@ -74,6 +74,8 @@ struct IntegratorSettings {
     /// Says whether images of small lamps in mirrors and glass get samples of their own, which only renders of `path`,
     /// `direct`, `bdpt` and `vcm` take.
     bool lamp_images = true;
+    /// Says whether a share of light subpaths is aimed at mirrors and smooth glass.
+    bool aimed_emission = true;
     MergeSettings merging{};  ///< says how `vcm` merges
 };
 

@@ -497,6 +497,13 @@ constexpr std::array kRows{
             .help = "Whether images of small lamps in mirrors and smooth glass get samples of their own",
             .page = "integrators.md#images-of-lamps",
             .place = at([](auto& s) -> auto& { return s.integrator.lamp_images; })},
+    Setting{.pointer = "/integrator/aimed_emission",
+            .type = YesNo{"--no-aimed-emission", "Let lights send all paths where they shine"},
+            .decides = Decides::Samples,
+            .help = "Whether lights send a share of the paths of `light`, `bdpt` and `vcm` towards mirrors and smooth "
+                    "glass",
+            .page = "integrators.md#aimed-emission",
+            .place = at([](auto& s) -> auto& { return s.integrator.aimed_emission; })},
     Setting{.pointer = "/integrator/merge",
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,

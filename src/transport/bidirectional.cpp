@@ -9,7 +9,7 @@ namespace {
 
 SubpathSample subpath_sample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
                              const BidirectionalSetup& setup) {
-    return {{world, Raised{settings.heuristic}, setup.samples_per_light_path, setup.merging},
+    return {{world, Raised{settings.heuristic}, setup.samples_per_light_path, setup.merging, settings.aimed_emission},
             settings.lengths,
             eye,
             setup.shared};
@@ -31,6 +31,11 @@ BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_
                                     [&](const Subpath& subpath, const Vertex& vertex, const SubpathDensities& arrived) {
                                         light_met(sample, subpath, vertex, arrived, keep);
                                     });
+    if (setup.photons != nullptr)
+        for (const SubpathVertex& vertex : eye)
+            if (vertex.merges)
+                light_merged(sample, vertex, *setup.photons,
+                             [&](const Photon&, const StrategyLight& merged) { keep(merged); });
     const std::optional<Subpath> from_light = begin_subpath_at_light(sample);
     if (!from_light) return found;
     for (const SubpathVertex& vertex : eye) keep(light_sampled(sample, vertex));
@@ -41,11 +46,6 @@ BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_
     for (const SubpathVertex& at_eye : eye)
         for (const SubpathVertex& at_light : light) keep(light_connected(sample, at_eye, at_light));
     for (const SubpathVertex& vertex : light) show(light_at_lens(sample, vertex));
-    if (setup.photons != nullptr)
-        for (const SubpathVertex& vertex : eye)
-            if (vertex.merges)
-                light_merged(sample, vertex, *setup.photons,
-                             [&](const Photon&, const StrategyLight& merged) { keep(merged); });
     return found;
 }
 

@@ -50,7 +50,7 @@ FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& ver
 
 std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, const IntegratorSettings& settings) {
     const PathLengths& lengths = settings.lengths;
-    const SubpathSample sample{{world}, lengths, eye};
+    const SubpathSample sample{{.world = world, .aims = settings.aimed_emission}, lengths, eye};
     const std::optional<Subpath> subpath = begin_subpath_at_light(sample);
     if (!subpath) return {};
     std::vector<FilmLight> found;

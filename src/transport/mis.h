@@ -67,6 +67,7 @@ struct MisContext {
     /// Multiplies the density of the eye's first vertex: camera samples per area of the film over light paths.
     double samples_per_light_path = 1.0;
     Merging merging{};
+    bool aims = false;  ///< light subpaths are aimed, see LightEmitter::sample
 };
 
 /// Holds a and b of a vertex, raised; and what merges add to D, here and at the vertex before (transport/merging.h).

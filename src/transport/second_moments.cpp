@@ -80,14 +80,19 @@ void SampleWork::add(const SampleWork& other) {
 
 ComparedSample::ComparedSample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
                                const BidirectionalSetup& setup)
-    : world_(world), eye_(eye), lengths_(settings.lengths), setup_(setup), lamp_images_(settings.lamp_images) {
+    : world_(world),
+      eye_(eye),
+      lengths_(settings.lengths),
+      setup_(setup),
+      lamp_images_(settings.lamp_images),
+      aims_(settings.aimed_emission) {
     all_ = follow(sample(setup.merging));
     unmerged_ = follow(sample({}));
     of_path_tracing_ = follow(sample({}, true));
 }
 
 SubpathSample ComparedSample::sample(const Merging& merging, bool counts_path_tracing_alone) const {
-    return {{world_, Raised{Heuristic::Balance}, setup_.samples_per_light_path, merging},
+    return {{world_, Raised{Heuristic::Balance}, setup_.samples_per_light_path, merging, aims_},
             lengths_,
             eye_,
             setup_.shared,

@@ -111,6 +111,7 @@ class ComparedSample {
     PathLengths lengths_;
     BidirectionalSetup setup_;
     bool lamp_images_ = true;
+    bool aims_ = false;
     Subpaths all_;              ///< with the strategies of `vcm`
     Subpaths unmerged_;         ///< with those of `bdpt`
     Subpaths of_path_tracing_;  ///< with s = 0 and s = 1 on the light's side

@@ -31,8 +31,13 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
         const std::uint32_t lamp = world.lights().at(point);
         StrategySums sums;
         if (!is_seen && lamp != kNone)
-            sums = sums_at_emitter(sample.mis, eye.from, lamp, point.triangle, direction,
-                                   dot(vertex.wo, point.geometric_normal), arrived);
+            sums = sums_at_emitter(sample.mis, eye.from,
+                                   {.light = lamp,
+                                    .triangle = point.triangle,
+                                    .point = point.position,
+                                    .direction = vertex.wo,
+                                    .cos_light = dot(vertex.wo, point.geometric_normal)},
+                                   arrived);
         else if (eye.is_direct && lamp != kNone)
             sums = sums_at_seen_emitter(sample.mis, lamp, arrived);
         add({throughput * emitted, sums});

@@ -48,14 +48,13 @@ struct LightPointPdfs {
     return {.fewer_from_eye = sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf))};
 }
 
-/// Returns `sums_at_light` for a triangle that a ray along `direction` has met.
-[[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, std::uint32_t light,
-                                                  std::uint32_t triangle, const Vec3f& direction, float cos_light,
+/// Returns `sums_at_light` for a lamp that an eye subpath has met: `emitted` goes back along its ray to `from`.
+[[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, const EmittedRay& emitted,
                                                   const SubpathDensities& arrived) {
-    const float pdf_area = mis.world.emitters().pdf_area(light);
-    return sums_at_light(mis, from, light,
-                         {.sampled = pdf_area * mis.world.lights().gain(light, triangle, from), .emitted = pdf_area},
-                         mis.world.emitters().pdf(light, -direction, cos_light), arrived);
+    const float pdf_area = mis.world.emitters().pdf_area(emitted.light);
+    const float gain = mis.world.lights().gain(emitted.light, emitted.triangle, from);
+    return sums_at_light(mis, from, emitted.light, {.sampled = pdf_area * gain, .emitted = pdf_area},
+                         mis.world.emitters().pdf(emitted, mis.aims), arrived);
 }
 
 /// Returns the sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
@@ -75,7 +74,8 @@ struct LightPointPdfs {
     return sums_at_light(mis, from, light,
                          {.sampled = world.environment().pdf_solid_angle(light, direction),
                           .emitted = world.environment().emission_pdf_solid_angle(light, direction)},
-                         world.emitters().pdf(light, -direction, 1.0f), departing.arrive(mis.raised, 1.0, 1.0));
+                         world.emitters().pdf({.light = light, .point = from, .direction = -direction}, mis.aims),
+                         departing.arrive(mis.raised, 1.0, 1.0));
 }
 
 /// Returns the sums of s = 1: `chosen` was sampled for the last vertex of an eye subpath, which scatters it by `value`.
@@ -86,9 +86,14 @@ template <typename AnyVertex>
     const World& world = mis.world;
     const Raised& raised = mis.raised;
     const LightSample& light = chosen.sample;
-    const float arriving = world.emitters().pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
-    const double from_light =
-        static_cast<double>(std::isinf(light.distance) ? arriving : arriving / (light.distance * light.distance));
+    const bool is_afar = std::isinf(light.distance);
+    const EmittedRay emitted{.light = chosen.light,
+                             .triangle = light.triangle,
+                             .point = is_afar ? vertex.position : vertex.position + light.wi * light.distance,
+                             .direction = -light.wi,
+                             .cos_light = light.cos_light};
+    const float arriving = world.emitters().pdf(emitted, mis.aims) * vertex.cosine(light.wi);
+    const double from_light = static_cast<double>(is_afar ? arriving : arriving / (light.distance * light.distance));
     // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so its
     // triangle, and the direction of an environment: its densities jump from cell to cell, and both must be of the one
     // that other strategies find the direction in.

@@ -108,8 +108,9 @@ std::optional<Subpath> begin_subpath_at_light(const SubpathSample& sample) {
     const auto draw = [&](EmissionDimension which) { return sample.eye.numbers.pair(kFirstLightDimension + which); };
     Subpath subpath;
     subpath.end = SubpathEnd::AtLight;
-    const Emission emission = world.emitters().sample(
-        draw(kEmitterChoice), {draw(kTriangle), draw(kPosition), draw(kDirection)}, sample.eye.ray.time);
+    const Emission emission =
+        world.emitters().sample(draw(kEmitterChoice), {draw(kTriangle), draw(kPosition), draw(kDirection)},
+                                sample.eye.ray.time, sample.mis.aims);
     subpath.emission = emission;
     subpath.ray = emission.ray;
     subpath.ray.alpha_key = sample.eye.numbers.bits(kFirstLightDimension);

@@ -1,23 +1,84 @@
 #include "world/light_emitter.h"
 
+#include "world/material.h"
 #include "world/materials.h"
 #include "world/media.h"
 #include "world/mesh_emission.h"
 
+#include <algorithm>
 #include <variant>
+#include <vector>
 
 namespace etendue {
 
-LightEmitter::LightEmitter(const WorldData& data, const Materials& materials, const Media& media)
-    : data_(data), materials_(materials), media_(media), selector_(data.lights, data.bounding_radius()) {}
+namespace {
 
-Emission LightEmitter::sample(Vec2f u_light, const EmissionNumbers& u, float time) const {
+/// Returns a sphere around `geometry` as `instance` places it, at the middle of the shutter.
+AimSphere sphere_around(const Geometry& geometry, const Instance& instance) {
+    Bounds bounds;
+    for (const Vec3f& position : geometry.positions) bounds.extend(position);
+    float radius = 0.0f;
+    for (const Vec3f& position : geometry.positions) radius = std::max(radius, length(position - bounds.center()));
+    const Mat4f& m = instance.to_world;
+    const auto scale = [&](const Vec3f& axis) { return length(transform_vector(m, axis)); };
+    return {transform_point(m, bounds.center()),
+            radius * std::max({scale({1.0f, 0.0f, 0.0f}), scale({0.0f, 1.0f, 0.0f}), scale({0.0f, 0.0f, 1.0f})})};
+}
+
+/// Returns spheres around all that mirrors or refracts without roughness.
+std::vector<AimSphere> specular_spheres(const WorldData& data) {
+    std::vector<AimSphere> spheres;
+    for (const Instance& instance : data.instances)
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+            const Geometry& geometry = data.geometries[instance.first_geometry + g];
+            if (is_specular(data.materials[geometry.material])) spheres.push_back(sphere_around(geometry, instance));
+        }
+    return spheres;
+}
+
+/// Aims `sample` if its numbers say so; otherwise has the light make it anew of what they leave. Then its densities are
+/// those of both ways.
+void aim_emission(const LightAim& aim, const Light& light, const SceneSphere& scene, EmissionNumbers& u,
+                  EmissionSample& sample) {
+    const auto cone = light_cone(light, sample.triangle);
+    if (!cone) {
+        if (is_black(sample.radiance)) return;
+        const float own = sample.pdf_position_area;
+        const auto place = aim.aim_from_afar(sample.direction, own, u.position);
+        if (place)
+            sample.position = *place - sample.direction * dot(*place - sample.position, sample.direction);
+        else
+            sample = sample_emission(light, u, scene);
+        sample.pdf_position_area = aim.pdf_area(sample.position, sample.direction, own, place.has_value());
+        return;
+    }
+    const auto direction = aim.aim(sample.position, *cone, u.direction);
+    if (direction)
+        turn_emission(light, sample, *direction);
+    else
+        sample = sample_emission(light, u, scene);
+    sample.pdf_direction_solid_angle = aim.pdf_solid_angle(sample.position, *cone, sample.direction,
+                                                           sample.pdf_direction_solid_angle, direction.has_value());
+}
+
+}  // namespace
+
+LightEmitter::LightEmitter(const WorldData& data, const Materials& materials, const Media& media)
+    : data_(data),
+      materials_(materials),
+      media_(media),
+      selector_(data.lights, data.bounding_radius()),
+      aim_(specular_spheres(data)) {}
+
+Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool aims) const {
     const AliasTable::Choice choice = selector_.sample(u_light);
     Emission emission;
     emission.light = choice.index;
     emission.probability = choice.probability;
     EmissionSample& sample = emission.sample;
-    sample = etendue::sample_emission(data_.lights[choice.index], u, data_.bounding_sphere());
+    const Light& light = data_.lights[choice.index];
+    sample = etendue::sample_emission(light, u, data_.bounding_sphere());
+    if (aims && !aim_.empty()) aim_emission(aim_, light, data_.bounding_sphere(), u, sample);
     if (is_black(sample.radiance)) return emission;
     if (has_uneven_emission(data_, choice.index))
         sample.radiance =
@@ -45,6 +106,15 @@ SurfaceEmission LightEmitter::surface_emission(const Emission& emission, const V
 Interior LightEmitter::interior(const Emission& emission) const {
     return data_.planes_of(emission.light).empty() ? media_.light_interior(emission.light)
                                                    : media_.interior_at(emission.ray.origin);
+}
+
+float LightEmitter::pdf(const EmittedRay& ray, bool aims) const {
+    const Light& light = data_.lights[ray.light];
+    const float own = emission_pdf(light, ray.direction, ray.cos_light, data_.bounding_sphere());
+    if (!aims || aim_.empty()) return own;
+    const auto cone = light_cone(light, ray.triangle);
+    return cone ? aim_.pdf_solid_angle(ray.point, *cone, ray.direction, own)
+                : aim_.pdf_area(ray.point, ray.direction, own);
 }
 
 float LightEmitter::pdf_area(std::uint32_t light) const {

@@ -24,6 +24,15 @@ struct Emission {
     float probability = 0;  ///< of choosing this light
 };
 
+/// Describes a ray that leaves a light, to ask how densely it is sampled.
+struct EmittedRay {
+    std::uint32_t light = kNone;
+    std::uint32_t triangle = 0;  ///< of a mesh light
+    Vec3f point{0.0f};           ///< where it leaves the light; for one at infinity, any point of the ray
+    Vec3f direction{0.0f};       ///< unit, away from the light
+    float cos_light = 1.0f;      ///< between the direction and the normal of the light's front
+};
+
 /// Holds the emission of a point of a lamp in one direction.
 struct SurfaceEmission {
     Rgb radiance;         ///< W/(m² sr)
@@ -36,8 +45,9 @@ class LightEmitter {
     /// Makes the table of powers; all arguments have to stay where they are.
     LightEmitter(const WorldData& data, const Materials& materials, const Media& media);
 
-    /// Samples a ray that leaves a light, chosen with `u_light` in [0, 1)²; the ray has the given time.
-    [[nodiscard]] Emission sample(Vec2f u_light, const EmissionNumbers& u, float time) const;
+    /// Samples a ray that leaves a light, chosen with `u_light` in [0, 1)²; the ray has the given time. If `aims`, a
+    /// share of rays goes to mirrors and smooth glass (light/light_aim.h).
+    [[nodiscard]] Emission sample(Vec2f u_light, EmissionNumbers u, float time, bool aims) const;
     /// Evaluates the light that leaves the starting point of `emission` along `direction`, towards the camera; black
     /// without a surface, and where that is hidden from the camera.
     [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
@@ -46,12 +56,11 @@ class LightEmitter {
 
     /// Returns the probability with which `sample` chooses the light of this index.
     [[nodiscard]] float probability(std::uint32_t light) const { return selector_.probability(light); }
-    /// Returns the density of `direction` for rays of `sample` from a given point of the light of this index, 1/sr, or
-    /// for a light at infinity, whose direction is given, that of where they pass, 1/m² across it. `cos_light` is the
-    /// cosine between the direction and the normal of the light's front.
-    [[nodiscard]] float pdf(std::uint32_t light, const Vec3f& direction, float cos_light) const {
-        return emission_pdf(data_.lights[light], direction, cos_light, data_.bounding_sphere());
-    }
+    /// Returns the density of the direction of `ray` for rays of `sample` from its point, 1/sr, or for a light at
+    /// infinity, whose direction is given, that of where they pass, 1/m² across it.
+    [[nodiscard]] float pdf(const EmittedRay& ray, bool aims) const;
+    /// Returns the spheres that rays are aimed at; none unless `aims`.
+    [[nodiscard]] const LightAim& aim(bool aims) const { return aims ? aim_ : no_aim_; }
     /// Returns the density per area, 1/m², without the choice, with which `sample` picks a point of the mesh light of
     /// this index.
     [[nodiscard]] float pdf_area(std::uint32_t light) const;
@@ -64,6 +73,8 @@ class LightEmitter {
     const Materials& materials_;
     const Media& media_;
     LightSelector selector_;
+    LightAim aim_;
+    LightAim no_aim_;
 };
 
 }  // namespace etendue

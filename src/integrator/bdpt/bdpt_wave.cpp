@@ -29,7 +29,8 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
                          settings.cached_connections > 0 ? SampleOrder::SampleBySample : SampleOrder::PixelByPixel);
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
-    const BdptJob bdpt{{world, job, settings.lengths, Raised{settings.heuristic}, samples_, camera_rays_, job.merging},
+    const BdptJob bdpt{{world, job, settings.lengths, Raised{settings.heuristic}, samples_, camera_rays_,
+                        settings.aimed_emission, job.merging},
                        settings};
     const SparedRays spared = spared_rays(settings.lengths.roulette_depth);
     MetLight met({bdpt, eye_, lamps_, observed_, found_, alpha_, tile, counters});
@@ -80,8 +81,8 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
     found_.reset(count, job, counters.brightest.threshold());
-    const SubpathJob subpaths{world,    job,          settings.lengths, Raised{settings.heuristic},
-                              samples_, camera_rays_, job.merging};
+    const SubpathJob subpaths{world,    job,          settings.lengths,        Raised{settings.heuristic},
+                              samples_, camera_rays_, settings.aimed_emission, job.merging};
     light_.trace(subpaths, spared_rays(settings.lengths.roulette_depth).of_light, nullptr, found_, counters);
     for (const PathVertex& vertex : light_.vertices().all())
         if (vertex.merges)

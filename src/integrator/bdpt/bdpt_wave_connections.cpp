@@ -106,7 +106,7 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
 }
 
 void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
-    to_light_lanes_.connect(wide_to_lights_.size(), job.rule());
+    to_light_lanes_.connect(wide_to_lights_.size(), job.rule(), job.world.emitters().aim(job.aims));
     if (!asks_for_each(job)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
         const auto& [vertex, light, triangle] = wide_to_lights_[lane];

@@ -9,7 +9,7 @@ void BetweenLanes::connect(std::size_t count, const WeightRule& rule) {
     }
 }
 
-void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
+void ToLightLanes::connect(std::size_t count, const WeightRule& rule, const LightAim& aim) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const BasicMatteEnd<Wide> end = eye.load(l, count);
         const LightTriangleFront<Wide> triangle = front.load(l);
@@ -17,9 +17,9 @@ void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
         wi.store(l, sample.wi);
         distance.store(l, sample.distance);
         cos_light.store(l, sample.cos_light);
-        store(
-            l, end.origin,
-            etendue::connect(rule, end, triangle, sample, radiance.load(l), probability.load(l), choice_ratio.load(l)));
+        store(l, end.origin,
+              etendue::connect(rule, end, triangle, sample, radiance.load(l), probability.load(l), choice_ratio.load(l),
+                               aim));
     }
 }
 

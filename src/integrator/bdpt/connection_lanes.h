@@ -86,7 +86,7 @@ struct ToLightLanes : ConnectionColumns {
     Vec3Columns wi;
     Column distance, cos_light;
 
-    void connect(std::size_t count, const WeightRule& rule);
+    void connect(std::size_t count, const WeightRule& rule, const LightAim& aim);
 };
 
 /// Connects light vertices to the camera; about 5 KiB.

@@ -53,14 +53,19 @@ template <typename T>
 }
 
 /// Returns the connection of `eye` to a sample of an evenly shining mesh light; `probability` is that of the choice of
-/// the light for `eye`, `choice_ratio` that of both light and triangle for an emission over that for `eye`.
+/// the light for `eye`, `choice_ratio` that of both light and triangle for an emission over that for `eye`; emission is
+/// aimed by `aim`.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
                                                 const LightTriangleFront<T>& front, const LightTriangleSample<T>& light,
-                                                const BasicRgb<T>& radiance, T probability, T choice_ratio) {
+                                                const BasicRgb<T>& radiance, T probability, T choice_ratio,
+                                                const LightAim& aim) {
     const T pdf = light.pdf_solid_angle * probability;
-    const T from_light =
-        front.emission_pdf_solid_angle(light.cos_light) * eye.cosine(light.wi) / (light.distance * light.distance);
+    T emission_pdf = front.emission_pdf_solid_angle(light.cos_light);
+    if (!aim.empty())
+        emission_pdf =
+            aim.pdf_solid_angle(eye.position + light.wi * light.distance, front.cone(), -light.wi, emission_pdf);
+    const T from_light = emission_pdf * eye.cosine(light.wi) / (light.distance * light.distance);
     const T weight = rule.weight(eye.radiance_pdf(light.wi) / pdf, T(1.0f), choice_ratio * from_light, eye.fewer);
     const BasicRgb<T> contribution = eye.radiance(light.wi) * radiance * (weight / pdf);
     return {select(light.pdf_solid_angle > T(0.0f) && eye.cosine(light.wi) > T(0.0f), contribution, BasicRgb<T>()),

@@ -32,7 +32,7 @@ std::unique_ptr<IntegratorScratch> LightIntegrator::make_scratch() const {
 
 void LightIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                   RenderCounters& counters) const {
-    trace_in_waves<LightWave>(world, job, lengths_, scratch, tile, counters);
+    trace_in_waves<LightWave>(world, job, settings_, scratch, tile, counters);
 }
 
 }  // namespace etendue

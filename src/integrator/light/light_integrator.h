@@ -11,7 +11,7 @@ namespace etendue {
 
 class LightIntegrator final : public Integrator {
   public:
-    explicit LightIntegrator(const IntegratorSettings& settings) : lengths_(settings.lengths) {}
+    explicit LightIntegrator(const IntegratorSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -20,7 +20,7 @@ class LightIntegrator final : public Integrator {
                      RenderCounters& counters) const override;
 
   private:
-    PathLengths lengths_;
+    IntegratorSettings settings_;
 };
 
 }  // namespace etendue

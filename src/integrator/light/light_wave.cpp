@@ -14,7 +14,7 @@ std::size_t LightWave::bytes() const {
            subpaths_.bytes() + to_camera_.bytes() + lamps_.bytes() + connections_.bytes();
 }
 
-void LightWave::trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first,
+void LightWave::trace(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
                       std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     // Their keys and times; a light path is made for each.
     samples_.resize(count);
@@ -28,16 +28,17 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
         find_first_hits(world, job, samples_, camera_rays_, hits_, tile);
     }
     stamp(job.profile, Stage::Generate);
-    if (world.traits().has_lights) trace_subpaths(world, job, lengths, tile, counters);
+    if (world.traits().has_lights) trace_subpaths(world, job, settings, tile, counters);
     // No path from the light tells what the camera sees through: the image is opaque.
     alpha_.assign(count, 1.0f);
     accumulate(job, samples_, found_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
 }
 
-void LightWave::trace_subpaths(const World& world, const TileJob& job, const PathLengths& lengths, TileBuffer& tile,
-                               RenderCounters& counters) {
-    const SubpathJob subpath_job{world, job, lengths, Raised{}, samples_, camera_rays_};
+void LightWave::trace_subpaths(const World& world, const TileJob& job, const IntegratorSettings& settings,
+                               TileBuffer& tile, RenderCounters& counters) {
+    const PathLengths& lengths = settings.lengths;
+    const SubpathJob subpath_job{world, job, lengths, Raised{}, samples_, camera_rays_, settings.aimed_emission};
     subpaths_.trace(subpath_job, lengths.roulette_depth, nullptr, found_, counters);
     if (lengths.min_depth <= 1)
         lamps_.connect(subpath_job, subpaths_, connections_,

@@ -19,11 +19,11 @@ class LightWave final : public IntegratorScratch {
     [[nodiscard]] std::size_t bytes() const override;
 
     /// Traces one subpath for each of the samples [first, first + count) of the job, count <= kCapacity.
-    void trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first, std::size_t count,
-               TileBuffer& tile, RenderCounters& counters);
+    void trace(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
+               std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
   private:
-    void trace_subpaths(const World& world, const TileJob& job, const PathLengths& lengths, TileBuffer& tile,
+    void trace_subpaths(const World& world, const TileJob& job, const IntegratorSettings& settings, TileBuffer& tile,
                         RenderCounters& counters);
     void connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters);
 

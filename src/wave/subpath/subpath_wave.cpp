@@ -136,7 +136,8 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
     for (std::size_t i = 0; i < job.samples.size(); ++i) {
         const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
         const Emission& emission = emissions_[i];
-        make_in_place(emissions_[i], [&] { return world.emitters().sample(light_choice_[i], u, rays_[i].time); });
+        make_in_place(emissions_[i],
+                      [&] { return world.emitters().sample(light_choice_[i], u, rays_[i].time, job.aims); });
         if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
         const EmissionSample& sample = emission.sample;
         SubpathState state;

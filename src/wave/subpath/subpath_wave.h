@@ -31,6 +31,7 @@ struct SubpathJob {
     Raised raised;
     std::span<const CameraSample> samples;
     std::span<const Ray> camera_rays;  ///< rays of the samples, in their order
+    bool aims = false;                 ///< light subpaths are aimed, see LightEmitter::sample
     Merging merging{};                 ///< where subpaths merge
 
     /// Returns camera samples per area of the film over light paths, by which the density of the eye's first vertex is
@@ -40,7 +41,7 @@ struct SubpathJob {
                static_cast<double>(job.window.area());
     }
     /// Returns what weights depend on.
-    [[nodiscard]] MisContext mis() const { return {world, raised, samples_per_light_path(), merging}; }
+    [[nodiscard]] MisContext mis() const { return {world, raised, samples_per_light_path(), merging, aims}; }
     /// Returns the wavelength of the path of the sample in `slot`, if it needs one; both subpaths have the same.
     [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {

@@ -131,6 +131,7 @@ TEST_P(MatteConnectionsIn, JoinSubpathsAsOneByOne) {
 
 TEST_P(MatteConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
     ToLightLanes lanes;
+    const LightAim aim({{{0.5f, 0.5f, -0.5f}, 0.2f}, {{-4.0f, 1.0f, 2.0f}, 1.0f}});
     int lit = 0;
     for (int block = 0; block < 200; ++block) {
         const auto eyes = make_ends(TransportMode::Radiance);
@@ -148,7 +149,7 @@ TEST_P(MatteConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
             lanes.probability.set(l, 0.25f);
             lanes.choice_ratio.set(l, 3.0f);
         }
-        lanes.connect(kCount, rule_);
+        lanes.connect(kCount, rule_, aim);
         for (std::size_t l = 0; l < kCount; ++l) {
             const PathVertex& eye = eyes[l].vertex;
             const LightSample light = lights[l].sample(eye.position, {0.5f, 0.5f}, numbers[l]);
@@ -161,8 +162,11 @@ TEST_P(MatteConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
             ++lit;
             // The formulas of sums_of_light_sample, without a World.
             const float pdf = 0.25f * light.pdf_solid_angle;
-            const double from_light = static_cast<double>(lights[l].emission_pdf(-light.wi, light.cos_light, {}) *
-                                                          eye.cosine(light.wi) / (light.distance * light.distance));
+            const float emission_pdf =
+                aim.pdf_solid_angle(eye.position + light.wi * light.distance, lights[l].cone(light.triangle), -light.wi,
+                                    lights[l].emission_pdf(-light.wi, light.cos_light, {}));
+            const double from_light =
+                static_cast<double>(emission_pdf * eye.cosine(light.wi) / (light.distance * light.distance));
             const double fewer = eye.densities.fewer(raised_, static_cast<double>(value.reverse_pdf_solid_angle));
             const auto weight =
                 static_cast<float>(1.0 / (1.0 + raised_(static_cast<double>(value.pdf_solid_angle / pdf)) +

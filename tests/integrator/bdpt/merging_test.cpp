@@ -223,11 +223,11 @@ World quad_in_ball() {
 TEST(Merging, KeepsTheEnergyOfLightThatEyePathsMeetByChance) {
     const World world = quad_in_ball();
     const PathLengths lengths{.max_depth = 8, .min_depth = 4};
-    const double expected = mean_of_render(world, *make_integrator("naive", {.lengths = lengths}), 256);
+    const double expected = mean_of_render(world, *make_integrator("naive", {.lengths = lengths}), 1024);
     for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
         IntegratorSettings settings{.lengths = lengths, .heuristic = heuristic};
         const MergeSettings wide{.radius = 8.0f};
-        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(settings, nullptr, wide), 96), expected, 0.01 * expected);
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(settings, nullptr, wide), 384), expected, 0.01 * expected);
         settings.strategy = kMerges;
         EXPECT_GT(mean_of_render(world, BdptIntegrator(settings, nullptr, wide), 8), 0.3 * expected);
     }

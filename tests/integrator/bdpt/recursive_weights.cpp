@@ -1,5 +1,6 @@
 #include "integrator/bdpt/recursive_weights.h"
 
+#include "integrator/bdpt/emitted_ray.h"
 #include "transport/strategy_sums.h"
 
 #include <cmath>
@@ -135,11 +136,12 @@ class GivenPath {
                merge_at(job_.mis(), departing, vertex.position, vertex.densities);
     }
 
+    [[nodiscard]] EmittedRay emitted() const { return emitted_ray(job_.world, path_); }
     /// Returns the emission that LightEmitter::sample would have made.
     [[nodiscard]] Emission emission() const {
         const World& world = job_.world;
         const PathLightEnd& end = path_.end;
-        const float pdf = world.emitters().pdf(end.light, end.direction, end.cos_light);
+        const float pdf = world.emitters().pdf(emitted(), job_.aims);
         Emission emission;
         emission.light = end.light;
         emission.probability = world.emitters().probability(end.light);
@@ -194,9 +196,7 @@ class GivenPath {
         const SubpathDensities arrived =
             departing.arrive(job_.raised, static_cast<double>(length_squared(path_.end.position - from)),
                              std::abs(static_cast<double>(path_.end.cos_light)));
-        return sums_at_emitter(job_.mis(), from, path_.end.light, path_.end.triangle, direction, path_.end.cos_light,
-                               arrived)
-            .weight();
+        return sums_at_emitter(job_.mis(), from, emitted(), arrived).weight();
     }
     [[nodiscard]] double weight_of_light_sample() const {
         if (!job_.world.traits().has_sampled_lights || !scatters_freely(0) || !is_direct(0)) return 0.0;

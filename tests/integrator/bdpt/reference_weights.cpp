@@ -1,5 +1,7 @@
 #include "integrator/bdpt/reference_weights.h"
 
+#include "integrator/bdpt/emitted_ray.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,7 +31,8 @@ class Path {
           is_connected_(path.s > 0),
           from_light_(path.s > 0 ? path.s - 1 : 0),
           camera_(path.camera),
-          at_infinity_(end_.light != kNone && job.world.lights().is_at_infinity(end_.light)) {}
+          at_infinity_(end_.light != kNone && job.world.lights().is_at_infinity(end_.light)),
+          emitted_(emitted_ray(job.world, path)) {}
 
     [[nodiscard]] std::size_t inner_count() const { return inner_.size(); }
 
@@ -58,7 +61,7 @@ class Path {
         if (end_.light == kNone) return 0.0;
         const PathVertex& vertex = *inner_[i - 1];
         if (i == 1) {
-            const auto pdf = static_cast<double>(world.emitters().pdf(end_.light, end_.direction, end_.cos_light));
+            const auto pdf = static_cast<double>(world.emitters().pdf(emitted_, job_.aims));
             return pdf * cosine(vertex, end_.direction) / (at_infinity_ ? 1.0 : squared_distance(0));
         }
         const PathVertex& before = *inner_[i - 2];
@@ -150,6 +153,7 @@ class Path {
     std::size_t from_light_;  ///< how many of `inner_`
     const CameraConnection& camera_;
     bool at_infinity_;
+    EmittedRay emitted_;
 };
 
 }  // namespace

@@ -126,7 +126,8 @@ std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuris
         return 0;
     }
     EXPECT_LE(comparison.different_without_excuse, comparison.paths / 10'000) << comparison.worst_path;
-    EXPECT_LE(comparison.different, comparison.paths / 400) << comparison.worst_path;
+    // Paths through glasses in glasses, at which lights aim, have refractions enough to make rounding large.
+    EXPECT_LE(comparison.different, comparison.paths / 200) << comparison.worst_path;
     if (merge != MergeAt::Nothing) {
         EXPECT_GE(comparison.merged, comparison.paths / 10'000 + 1);
     }

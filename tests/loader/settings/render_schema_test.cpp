@@ -68,7 +68,7 @@ const char* const kGood[] = {
     R"({"integrator": {"type": "direct", "max_depth": 1, "min_depth": 1, "roulette_depth": 2147483647}})",
     R"({"integrator": {"type": "bdpt", "heuristic": "balance", "strategy": "0,2", "weighted": false, "connections": "cache:999"}})",
     R"({"integrator": {"type": "bdpt", "connections": "pairwise"}})",
-    R"({"integrator": {"type": "vcm", "merge": "sds", "lamp_images": false, "merge_radius": 1.5, "merge_alpha": 0.75}})",
+    R"({"integrator": {"type": "vcm", "merge": "sds", "lamp_images": false, "aimed_emission": false, "merge_radius": 1.5, "merge_alpha": 0.75}})",
     R"({"integrator": {"type": "vcm", "merge": "all", "lamp_images": false, "merge_radius": 100, "merge_alpha": 1}})",
     R"({"integrator": {"light_samples": 64}})",
     R"({"sampler": "sobol"})",
