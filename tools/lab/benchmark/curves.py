@@ -20,11 +20,10 @@ SIZE = "256x256"
 class Column:
     """A quantity of a curve, in its table and in one of the panels of its plot."""
 
-    title: str
-    panel: str  # quantity and unit of the panel's axis; empty: in the table only
+    title: str  # empty: in the plot only
+    panel: str  # quantity and unit of the panel's axis
     label: str  # of the line in the panel
     value: Callable  # of a point: its fastest render by variant
-    digits: int = 3
 
 
 @dataclass
@@ -53,29 +52,24 @@ def of(key, scale, variant):
     return lambda point: point[variant][key] * scale
 
 
-def rays_per_sample(variant):
-    return lambda point: point[variant]["rays"] / point[variant]["samples"]
-
-
 SECONDS, MICROSECONDS, MEGABYTES = "seconds", "CPU µs a sample", "peak memory, MB"
 
 SCENE_COLUMNS = [
     Column("load, s", SECONDS, "load", of("load", 1, "path")),
     Column("compile, s", SECONDS, "compile", of("build", 1, "path")),
-    Column("of that BVH, s", SECONDS, "BVH", of("bvh", 1, "path")),
+    Column("", SECONDS, "BVH", of("bvh", 1, "path")),
     Column("CPU µs a sample", MICROSECONDS, "render", per_sample("path")),
-    Column("rays a sample", "", "", rays_per_sample("path"), 3),
     Column("peak, MB", MEGABYTES, "peak", of("peak", 1e-6, "path")),
 ]
 
 
-def memory_columns():
-    return [Column(f"`{name}`, peak, MB", MEGABYTES, name, of("peak", 1e-6, name)) for name in standard.INTEGRATORS]
+def memory_columns(titles):
+    return [Column(title, MEGABYTES, name, of("peak", 1e-6, name)) for name, title in zip(standard.INTEGRATORS, titles)]
 
 
 def integrator_columns():
-    return [Column(f"`{name}`, CPU µs a sample", MICROSECONDS, name, per_sample(name))
-            for name in standard.INTEGRATORS] + memory_columns()
+    return [Column(f"`{name}`, CPU µs a sample", MICROSECONDS, name, per_sample(name)) for name in standard.INTEGRATORS] \
+        + memory_columns([f"`{name}`, peak, MB" for name in standard.INTEGRATORS])
 
 
 def generated_scene(options):
@@ -123,23 +117,23 @@ ROULETTE_VARIANTS = [*standard.INTEGRATORS, *(f"{name}, {NO_ROULETTE}" for name 
 CURVES = [
     Curve("triangles", "triangles", "Triangles: one mesh, the same view", [10 ** k for k in range(3, 8)],
           [10 ** k for k in range(3, 6)], ["path"], SCENE_COLUMNS, generated_scene(lambda n: ["--triangles", n]),
-          "A height field of so many triangles under an even sky, `path`, 256 × 256 pixels.",
+          "A height field of so many triangles under an even sky; `path`, 256 × 256 pixels.",
           generated=True),
     Curve("instances", "instances", "Instances: one small mesh in many places", [10 ** k for k in range(2, 7)],
           [10 ** k for k in range(2, 5)], ["path"], SCENE_COLUMNS,
           generated_scene(lambda n: ["--triangles", 8, "--instances", n]),
-          "A mesh of 8 triangles in so many places, each a node of the file, all of them in view, `path`, 256 × 256 pixels.",
+          "A mesh of 8 triangles in so many places, each a node of the file and all in view; `path`, 256 × 256 pixels.",
           generated=True),
     Curve("lights", "lights", "Lights: points above one mesh", [10 ** k for k in range(6)], [10 ** k for k in range(0, 5, 2)],
           ["path"], SCENE_COLUMNS, generated_scene(lambda n: ["--triangles", 1000, "--lights", n]),
-          "So many point lights above a height field of 968 triangles, together as bright as one, `path`, 256 × 256 pixels.",
+          "So many point lights above a height field of 968 triangles, together as bright as one; `path`, 256 × 256 pixels.",
           generated=True),
     Curve("depth", "longest path, edges", "Depth: the longest path allowed, cornell-box", [2, 4, 8, 16, 32, 64], [2, 8, 32],
           ROULETTE_VARIANTS,
           [Column(f"`{name.replace(',', '`,', 1)}" if "," in name else f"`{name}`", MICROSECONDS, name, per_sample(name))
-           for name in ROULETTE_VARIANTS] + memory_columns(),
-          deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. As it comes, Russian roulette ends paths from the third edge "
-          "on; *no roulette* lets them go on until they leave the box or are as long as is allowed."),
+           for name in ROULETTE_VARIANTS] + memory_columns(["", ""]),
+          deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. Russian roulette ends paths from the third edge on; with "
+          "*no roulette* they go on until they leave the box or are as long as is allowed."),
     Curve("resolution", "pixels a side", "Resolution: cornell-box", [128, 256, 512, 1024, 2048], [128, 256, 512],
           list(standard.INTEGRATORS), integrator_columns(), large, "cornell-box, square images."),
     Curve("aovs", "layers", "Layers besides the image, cornell-box", list(layers.SETS), list(layers.SETS),
@@ -172,15 +166,15 @@ def fastest(data):
             for point, of_point in data["points"].items()}
 
 
-def exponents(curve, points):
+def exponents(columns, points):
     """Of each column, by the last three points."""
-    return [last_exponent([(x, column.value(point)) for x, point in points.items()]) for column in curve.columns]
+    return [last_exponent([(x, column.value(point)) for x, point in points.items()]) for column in columns]
 
 
-def share_per_layer(curve, points):
+def share_per_layer(columns, points):
     """By how much of the value without any, each layer raises each column: the slope of a line through all points."""
     shares = []
-    for column in curve.columns:
+    for column in columns:
         slope, _ = straight_line(list(points), [column.value(point) for point in points.values()])
         shares.append(slope / column.value(points[0]))
     return shares
@@ -188,13 +182,13 @@ def share_per_layer(curve, points):
 
 def curve_table(curve, data):
     points = fastest(data)
-    rows = [[count_text(x), *(figure(column.value(point), column.digits) for column in curve.columns)]
-            for x, point in points.items()]
+    columns = [column for column in curve.columns if column.title]
+    rows = [[count_text(x), *(figure(column.value(point)) for column in columns)] for x, point in points.items()]
     if curve.logarithmic:
-        rows.append(["*exponent*", *map(exponent_text, exponents(curve, points))])
+        rows.append(["*exponent*", *map(exponent_text, exponents(columns, points))])
     else:
-        rows.append(["*of each*", *(f"{100 * share:+.1f}%" for share in share_per_layer(curve, points))])
-    return table([curve.what, *(column.title for column in curve.columns)], rows)
+        rows.append(["*of each*", *(f"{100 * share:+.1f}%" for share in share_per_layer(columns, points))])
+    return table([curve.what, *(column.title for column in columns)], rows)
 
 
 def what_each_adds(data):
@@ -205,16 +199,15 @@ def what_each_adds(data):
         return figure(scale * (now["path"][key] - before["path"][key]) / (many - few), 2)
 
     return (f"From {count_text(few)} to {count_text(many)} each one more adds {each('peak', 1)} bytes to the peak, "
-            f"{each('load', 1e6)} µs of loading and {each('build', 1e6)} µs of compiling, of them {each('bvh', 1e6)} µs for the "
-            "BVH.")
+            f"{each('load', 1e6)} µs of loading and {each('build', 1e6)} µs of compiling.")
 
 
 def plot(curve, data):
     points = fastest(data)
     panels = []
-    for title in dict.fromkeys(column.panel for column in curve.columns if column.panel):
+    for title in dict.fromkeys(column.panel for column in curve.columns):
         series = [Series(column.label, [(x, column.value(point)) for x, point in points.items()],
                          k if curve.logarithmic else None)
-                  for column, k in zip(curve.columns, exponents(curve, points)) if column.panel == title]
+                  for column, k in zip(curve.columns, exponents(curve.columns, points)) if column.panel == title]
         panels.append(Panel(title, curve.what, series, curve.logarithmic, curve.logarithmic))
     return curve_plot(curve.title, panels)
