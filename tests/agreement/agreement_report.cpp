@@ -14,7 +14,7 @@ namespace etendue::test {
 
 namespace {
 
-/// All rooms that differ in camera and crop only.
+/// All rooms that a line of a table is about.
 using Row = std::vector<const RoomComparison*>;
 
 /// Rows by their titles, in the order in which they appear.
@@ -40,13 +40,13 @@ std::vector<Table> tables(std::span<const RoomComparison> rooms) {
     for (const RoomComparison& comparison : rooms) {
         const RoomTraits& room = comparison.room;
         if (room.medium != RoomMedium::None)
-            table("media", "light, medium")
-                .row(fmt::format("{}, {}, {}", name_of(room.light), name_of(room.medium), name_of(room.place)))
+            table("Media", "light, medium")
+                .row(fmt::format("{}, {}", name_of(room.light), name_of(room.medium)))
                 .push_back(&comparison);
-        else
-            table(name_of(room.light), "body, normals")
-                .row(fmt::format("{}, {}", name_of(room.material), name_of(room.normals)))
-                .push_back(&comparison);
+        else {
+            table("Lights", "light").row(std::string(name_of(room.light))).push_back(&comparison);
+            table("Bodies", "body").row(std::string(name_of(room.material))).push_back(&comparison);
+        }
     }
     return result;
 }
