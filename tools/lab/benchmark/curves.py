@@ -18,9 +18,8 @@ SIZE = "256x256"
 
 @dataclass
 class Column:
-    """A quantity of a curve, in its table and in one of the panels of its plot."""
+    """A quantity of a curve, in one of the panels of its plot."""
 
-    title: str  # empty: in the plot only
     panel: str  # quantity and unit of the panel's axis
     label: str  # of the line in the panel
     value: Callable  # of a point: its fastest render by variant
@@ -55,21 +54,17 @@ def of(key, scale, variant):
 SECONDS, MICROSECONDS, MEGABYTES = "seconds", "CPU µs a sample", "peak memory, MB"
 
 SCENE_COLUMNS = [
-    Column("load, s", SECONDS, "load", of("load", 1, "path")),
-    Column("compile, s", SECONDS, "compile", of("build", 1, "path")),
-    Column("", SECONDS, "BVH", of("bvh", 1, "path")),
-    Column("CPU µs a sample", MICROSECONDS, "render", per_sample("path")),
-    Column("peak, MB", MEGABYTES, "peak", of("peak", 1e-6, "path")),
+    Column(SECONDS, "load", of("load", 1, "path")),
+    Column(SECONDS, "compile", of("build", 1, "path")),
+    Column(SECONDS, "BVH", of("bvh", 1, "path")),
+    Column(MICROSECONDS, "render", per_sample("path")),
+    Column(MEGABYTES, "peak", of("peak", 1e-6, "path")),
 ]
 
 
-def memory_columns(titles):
-    return [Column(title, MEGABYTES, name, of("peak", 1e-6, name)) for name, title in zip(standard.INTEGRATORS, titles)]
-
-
-def integrator_columns():
-    return [Column(f"`{name}`, CPU µs a sample", MICROSECONDS, name, per_sample(name)) for name in standard.INTEGRATORS] \
-        + memory_columns([f"`{name}`, peak, MB" for name in standard.INTEGRATORS])
+def integrator_columns(variants=standard.INTEGRATORS):
+    return [Column(MICROSECONDS, name, per_sample(name)) for name in variants] \
+        + [Column(MEGABYTES, name, of("peak", 1e-6, name)) for name in standard.INTEGRATORS]
 
 
 def generated_scene(options):
@@ -130,8 +125,7 @@ CURVES = [
           generated=True),
     Curve("depth", "longest path, edges", "Depth: the longest path allowed, cornell-box", [2, 4, 8, 16, 32, 64], [2, 8, 32],
           ROULETTE_VARIANTS,
-          [Column(f"`{name.replace(',', '`,', 1)}" if "," in name else f"`{name}`", MICROSECONDS, name, per_sample(name))
-           for name in ROULETTE_VARIANTS] + memory_columns(["", ""]),
+          integrator_columns(ROULETTE_VARIANTS),
           deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. Russian roulette ends paths from the third edge on; with "
           "*no roulette* they go on until they leave the box or are as long as is allowed."),
     Curve("resolution", "pixels a side", "Resolution: cornell-box", [128, 256, 512, 1024, 2048], [128, 256, 512],
@@ -166,29 +160,36 @@ def fastest(data):
             for point, of_point in data["points"].items()}
 
 
-def exponents(columns, points):
-    """Of each column, by the last three points."""
-    return [last_exponent([(x, column.value(point)) for x, point in points.items()]) for column in columns]
+def exponent(value, points):
+    """That of the last three points."""
+    return last_exponent([(x, value(point)) for x, point in points.items()])
 
 
-def share_per_layer(columns, points):
-    """By how much of the value without any, each layer raises each column: the slope of a line through all points."""
-    shares = []
-    for column in columns:
-        slope, _ = straight_line(list(points), [column.value(point) for point in points.values()])
-        shares.append(slope / column.value(points[0]))
-    return shares
+def share_of_each(value, points):
+    """By how much of the value without any, each one raises it: the slope of a line through all points."""
+    slope, _ = straight_line(list(points), [value(point) for point in points.values()])
+    return slope / value(points[0])
 
 
-def curve_table(curve, data):
-    points = fastest(data)
-    columns = [column for column in curve.columns if column.title]
-    rows = [[count_text(x), *(figure(column.value(point)) for column in columns)] for x, point in points.items()]
-    if curve.logarithmic:
-        rows.append(["*exponent*", *map(exponent_text, exponents(columns, points))])
-    else:
-        rows.append(["*of each*", *(f"{100 * share:+.1f}%" for share in share_per_layer(columns, points))])
-    return table([curve.what, *(column.title for column in columns)], rows)
+def growth_table(data):
+    """Of each curve that there is data of by name, and each integrator: the values of the first and the last point, and how
+    they grow in between."""
+    rows = []
+    for curve in CURVES:
+        if curve.name not in data:
+            continue
+        points = fastest(data[curve.name])
+        first, last = next(iter(points.items())), next(reversed(points.items()))
+        for integrator in standard.INTEGRATORS:
+            if integrator not in curve.variants:
+                continue
+            row = [curve.what, f"`{integrator}`", f"{count_text(first[0])} to {count_text(last[0])}"]
+            for value in (per_sample(integrator), of("peak", 1e-6, integrator)):
+                growth = (exponent_text(exponent(value, points)) if curve.logarithmic
+                          else f"{100 * share_of_each(value, points):+.1f}% each")
+                row += [f"{figure(value(first[1]))} to {figure(value(last[1]))}", growth]
+            rows.append(row)
+    return table(["what grows", "", "from, to", "CPU µs a sample", "exponent", "peak, MB", "exponent"], rows, words=(0, 1, 2))
 
 
 def what_each_adds(data):
@@ -204,10 +205,11 @@ def what_each_adds(data):
 
 def plot(curve, data):
     points = fastest(data)
+    exponents = [exponent(column.value, points) for column in curve.columns]
     panels = []
     for title in dict.fromkeys(column.panel for column in curve.columns):
         series = [Series(column.label, [(x, column.value(point)) for x, point in points.items()],
                          k if curve.logarithmic else None)
-                  for column, k in zip(curve.columns, exponents(curve.columns, points)) if column.panel == title]
+                  for column, k in zip(curve.columns, exponents) if column.panel == title]
         panels.append(Panel(title, curve.what, series, curve.logarithmic, curve.logarithmic))
     return curve_plot(curve.title, panels)
