@@ -43,10 +43,8 @@ std::vector<Table> tables(std::span<const RoomComparison> rooms) {
             table("Media", "light, medium")
                 .row(fmt::format("{}, {}", name_of(room.light), name_of(room.medium)))
                 .push_back(&comparison);
-        else {
+        else
             table("Lights", "light").row(std::string(name_of(room.light))).push_back(&comparison);
-            table("Bodies", "body").row(std::string(name_of(room.material))).push_back(&comparison);
-        }
     }
     return result;
 }
