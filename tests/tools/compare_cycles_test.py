@@ -283,7 +283,7 @@ class Comparisons(unittest.TestCase):
         for seconds in (0.0, -0.1):
             cells = self.row(cycles=0.1, path=seconds, bdpt=seconds).path_row()
             self.assertEqual(cells[2:4], ["–", "–"])
-            self.assertEqual(cells[6:8], ["–", "–"])
+            self.assertEqual(cells[4:6], ["–", "–"])
             self.assertEqual(self.row(cycles=0.1, path=0.1, bdpt=seconds).bdpt_row()[1::2], ["–", "–"])
             self.assertEqual(self.row(cycles=seconds, path=0.1).path_row()[3], "–")
 

@@ -40,26 +40,19 @@ def run_of(data, integrator, threads):
     return next((run for run in data["runs"] if (run["integrator"], run["threads"]) == (integrator, threads)), None)
 
 
-def percent(share):
-    return "–" if share is None else f"{100 * share:.0f}%"
-
-
 def standard_table(scenes, threads):
-    """One row for each scene: after an integrator's name its million samples a second on all threads, the efficiency of one
-    thread against single rays and, where there is more than one processor, what all threads make of theirs."""
-    many = threads[-1]
+    """One row for each scene: after an integrator's name its million samples a second on all threads, and the efficiency of one
+    thread against single rays."""
     head = ["scene", "triangles", "first, s", "peak"]
     for integrator in INTEGRATORS:
-        head += [f"`{integrator}`", "single"] + (["parallel"] if many > 1 else [])
+        head += [f"`{integrator}`", "single"]
     rows = []
     for name, data in scenes.items():
         row = [name, f"{data['bvh']['triangles']:,}", figure(data["first_pixel"]), figure(data["peak"] / 1e6)]
         for integrator in INTEGRATORS:
-            one, on_all = (run_of(data, integrator, count) for count in (threads[0], many))
+            one, on_all = (run_of(data, integrator, count) for count in (threads[0], threads[-1]))
             rate = on_all["samples_per_second"]
             row += [figure(None if rate is None else rate / 1e6), figure(one["efficiency_single"], 2)]
-            if many > 1:
-                row.append(percent(on_all["parallel_efficiency"]))
         rows.append(row)
     return table(head, rows)
 
