@@ -142,8 +142,6 @@ std::string summary(std::span<const RoomComparison> rooms, double significance) 
         "|z| = {:.2f}.\n\n| | half of the pairs | 95 of 100 | all |\n|---|---|---|---|\n",
         rooms.size(), compared_rooms, pairs, tests, failed, threshold);
     text += "| image means differ by less than | " + quantiles(differences) + " |\n";
-    text += "| standard error of that difference | " + quantiles(mean_errors) + " |\n";
-    text += "| standard error of a block's difference, median of an image | " + quantiles(block_errors) + " |\n";
     const auto seen = [&](std::vector<double> errors) {
         for (double& error : errors) error *= threshold;
         return quantiles(std::move(errors));

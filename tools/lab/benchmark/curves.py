@@ -133,7 +133,7 @@ CURVES = [
     Curve("aovs", "layers", "Layers besides the image, cornell-box", list(layers.SETS), list(layers.SETS),
           list(standard.INTEGRATORS), integrator_columns(), layered,
           "cornell-box, 256 × 256 pixels, so many layers by `--aov`: one is `direct`, four are `direct`, `indirect`, `albedo` "
-          "and `N`, ten are `passes`, forty those of *Layers* below.", logarithmic=False),
+          "and `N`, ten are `passes`, and forty add first hits, costs and sixteen expressions.", logarithmic=False),
 ]
 
 
