@@ -328,7 +328,6 @@ class Comparisons(unittest.TestCase):
             comparison = tool.Comparison(self.arguments, "box")
             self.assertEqual(comparison.start_up(types.SimpleNamespace(name="cycles", start=start)).total(), 3.0)
         self.assertEqual(len(starts), 2)
-        self.assertEqual(self.row(cycles=0.1, path=0.1).path_row()[-2:], ["1.75", "1.75"])
 
     def test_an_aim_is_that_of_the_worst_scene(self):
         rows = [self.row(cycles=0.1, path=0.03), self.row(cycles=0.1, path=0.08), self.row(cycles=0.1, path=-1.0)]
