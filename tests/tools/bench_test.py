@@ -172,25 +172,20 @@ class Curves(Drawn):
     def test_the_least_time_of_the_turns_counts(self):
         self.assertEqual(curves.fastest(self.data(0.5))[1000]["path"]["cpu"], 0.5)
 
-    def test_the_table_has_a_row_for_each_point_and_the_exponents(self):
-        triangles = next(curve for curve in curves.CURVES if curve.name == "triangles")
-        lines = curves.curve_table(triangles, self.data(0.001, 0.002, 0.02, 0.2)).splitlines()
-        self.assertEqual(len(lines), 2 + 4 + 1)
-        self.assertEqual(lines[2], "| 1,000 | 0.500 | 0.250 | 0.125 | 10.0 | 3.00 | 2.00 |")
-        self.assertEqual(lines[-1].split(" | ")[4], "1.00")
+    def test_the_table_has_the_ends_of_each_curve_and_the_exponents(self):
+        lines = curves.growth_table({"triangles": self.data(0.001, 0.002, 0.02, 0.2)}).splitlines()
+        self.assertEqual(lines[2:], ["| triangles | `path` | 1,000 to 10⁶ | 10.0 to 2,000 | 1.00 | 2.00 to 2.00 | 0.00 |"])
 
     def test_layers_have_the_slope_over_the_value_without(self):
-        aovs = next(curve for curve in curves.CURVES if curve.name == "aovs")
         points = {n: {name: [render(1.0 + 0.02 * n)] for name in standard.INTEGRATORS} for n in layers.SETS}
-        lines = curves.curve_table(aovs, {"turns": 1, "points": points}).splitlines()
-        self.assertEqual(lines[-1].split(" | ")[1:3], ["+2.0%", "+2.0%"])
+        lines = curves.growth_table({"aovs": {"turns": 1, "points": points}}).splitlines()
+        self.assertEqual([line.split(" | ")[4] for line in lines[2:]], ["+2.0% each", "+2.0% each"])
 
     def test_every_curve_can_be_drawn(self):
         for curve in curves.CURVES:
             points = {x: {variant: [render(1.0 + x)] for variant in curve.variants} for x in curve.points}
             root = self.drawn(curves.plot(curve, {"turns": 1, "points": points}))
-            drawn = [column for column in curve.columns if column.panel]
-            self.assertEqual(len(root.findall(SVG + "polyline")), len(drawn))
+            self.assertEqual(len(root.findall(SVG + "polyline")), len(curve.columns))
 
     def test_sets_of_layers_are_as_large_as_they_say(self):
         self.assertEqual({count: sum(10 if name == "passes" else 1 for name in names)
@@ -200,14 +195,14 @@ class Curves(Drawn):
 class Standard(unittest.TestCase):
     def test_tables(self):
         scenes = {"room": profile(0.7)}
-        self.assertEqual(standard.integrator_table(scenes, "bdpt", [1, 2]).splitlines()[-1],
-                         "| room | 0.500 | 1.00 | 1.50 | 3.00 | 0.70 | 0.70 | 0.35 | 0.35 | 97% |")
-        self.assertEqual(standard.start_table(scenes).splitlines()[-1],
-                         "| room | 16 × 8 | 1,234 | 3 | 0.125 | 2.00 | 0.62 | 3.00 |")
+        self.assertEqual(standard.standard_table(scenes, [1, 2]).splitlines()[-1],
+                         "| room | 1,234 | 0.125 | 3.00 | 1.00 | 0.70 | 1.00 | 0.70 |")
+        self.assertEqual(standard.standard_table(scenes, [1]).splitlines()[-1],
+                         "| room | 1,234 | 0.125 | 3.00 | 0.500 | 0.70 | 0.500 | 0.70 |")
         xml.fromstring(standard.plot(scenes, [1, 2]))
 
-    def test_the_integrators_table_is_narrow(self):
-        head = standard.integrator_table({"caustic-mirror": profile(0.7)}, "path", [1, 2]).splitlines()
+    def test_the_table_is_narrow(self):
+        head = standard.standard_table({"caustic-mirror": profile(0.7)}, [1, 2]).splitlines()
         self.assertTrue(all(len(line) <= 100 for line in head), head)
 
     def test_thread_counts(self):

@@ -282,10 +282,10 @@ class Comparisons(unittest.TestCase):
     def test_a_time_that_is_lost_in_noise_is_a_dash(self):
         for seconds in (0.0, -0.1):
             cells = self.row(cycles=0.1, path=seconds, bdpt=seconds).path_row()
-            self.assertEqual(cells[5:7], ["–", "–"])
-            self.assertEqual(cells[-2:], ["–", "–"])
-            self.assertEqual(self.row(cycles=0.1, path=0.1, bdpt=seconds).bdpt_row()[1:3], ["–", "–"])
-            self.assertEqual(self.row(cycles=seconds, path=0.1).path_row()[4:7:2], ["–", "–"])
+            self.assertEqual(cells[2:4], ["–", "–"])
+            self.assertEqual(cells[4:6], ["–", "–"])
+            self.assertEqual(self.row(cycles=0.1, path=0.1, bdpt=seconds).bdpt_row()[1::2], ["–", "–"])
+            self.assertEqual(self.row(cycles=seconds, path=0.1).path_row()[3], "–")
 
     def test_the_document_has_what_the_tables_have(self):
         document = json.loads(json.dumps(self.row(cycles=0.1, path=0.05, bdpt=-1.0).document(), allow_nan=False))
@@ -328,8 +328,6 @@ class Comparisons(unittest.TestCase):
             comparison = tool.Comparison(self.arguments, "box")
             self.assertEqual(comparison.start_up(types.SimpleNamespace(name="cycles", start=start)).total(), 3.0)
         self.assertEqual(len(starts), 2)
-        self.assertEqual(self.row(cycles=0.1, path=0.1).start_up_row(),
-                         ["box", "1.50", "0.25", "1.75", "1.50", "0.25", "1.75"])
 
     def test_an_aim_is_that_of_the_worst_scene(self):
         rows = [self.row(cycles=0.1, path=0.03), self.row(cycles=0.1, path=0.08), self.row(cycles=0.1, path=-1.0)]

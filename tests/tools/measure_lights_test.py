@@ -69,9 +69,7 @@ class Costs(unittest.TestCase):
 
     def test_costs_are_against_the_first(self):
         rows = {("points", "tree", "path"): [(10, 0.02, 1.0), (100, 0.04, 3.0), (1000, 0.04, None)]}
-        self.assertEqual(tool.table(rows).splitlines()[2:], ["| tree | `path` | 10 points | 0.0200 | 1.00 | 1.00 |",
-                                                             "| tree | `path` | 100 points | 0.0400 | 3.00 | 6.00 |",
-                                                             "| tree | `path` | 1,000 points | 0.0400 | – | – |"])
+        self.assertEqual(tool.table(rows).splitlines()[2:], ["| points | tree | `path` | 0.0200 | 1.00 | 6.00 | – |"])
 
 
 if __name__ == "__main__":

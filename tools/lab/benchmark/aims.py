@@ -3,7 +3,7 @@
 import statistics
 
 from benchmark import standard, threads
-from benchmark.curves import CURVES, fastest
+from benchmark.curves import CURVES, fastest, per_sample
 from benchmark.tables import NOT_KNOWN, figure, table
 
 TEXTURED = "glossy-interior"
@@ -39,7 +39,7 @@ def growth(results, many, few):
     points = fastest(data) if data else {}
     if many not in points or few not in points:
         return None, NOT_KNOWN
-    cost = next(column.value for column in TRIANGLES.columns if column.title == "CPU µs a sample")
+    cost = per_sample("path")
     rays = [points[count]["path"]["rays"] / points[count]["path"]["samples"] for count in (many, few)]
     return cost(points[many]) / cost(points[few]), (f"CPU time of a sample; {figure(rays[0])} and {figure(rays[1])} rays of "
                                                     "each sample")

@@ -18,13 +18,11 @@ SIZE = "256x256"
 
 @dataclass
 class Column:
-    """A quantity of a curve, in its table and in one of the panels of its plot."""
+    """A quantity of a curve, in one of the panels of its plot."""
 
-    title: str
-    panel: str  # quantity and unit of the panel's axis; empty: in the table only
+    panel: str  # quantity and unit of the panel's axis
     label: str  # of the line in the panel
     value: Callable  # of a point: its fastest render by variant
-    digits: int = 3
 
 
 @dataclass
@@ -53,29 +51,20 @@ def of(key, scale, variant):
     return lambda point: point[variant][key] * scale
 
 
-def rays_per_sample(variant):
-    return lambda point: point[variant]["rays"] / point[variant]["samples"]
-
-
 SECONDS, MICROSECONDS, MEGABYTES = "seconds", "CPU µs a sample", "peak memory, MB"
 
 SCENE_COLUMNS = [
-    Column("load, s", SECONDS, "load", of("load", 1, "path")),
-    Column("compile, s", SECONDS, "compile", of("build", 1, "path")),
-    Column("of that BVH, s", SECONDS, "BVH", of("bvh", 1, "path")),
-    Column("CPU µs a sample", MICROSECONDS, "render", per_sample("path")),
-    Column("rays a sample", "", "", rays_per_sample("path"), 3),
-    Column("peak, MB", MEGABYTES, "peak", of("peak", 1e-6, "path")),
+    Column(SECONDS, "load", of("load", 1, "path")),
+    Column(SECONDS, "compile", of("build", 1, "path")),
+    Column(SECONDS, "BVH", of("bvh", 1, "path")),
+    Column(MICROSECONDS, "render", per_sample("path")),
+    Column(MEGABYTES, "peak", of("peak", 1e-6, "path")),
 ]
 
 
-def memory_columns():
-    return [Column(f"`{name}`, peak, MB", MEGABYTES, name, of("peak", 1e-6, name)) for name in standard.INTEGRATORS]
-
-
-def integrator_columns():
-    return [Column(f"`{name}`, CPU µs a sample", MICROSECONDS, name, per_sample(name))
-            for name in standard.INTEGRATORS] + memory_columns()
+def integrator_columns(variants=standard.INTEGRATORS):
+    return [Column(MICROSECONDS, name, per_sample(name)) for name in variants] \
+        + [Column(MEGABYTES, name, of("peak", 1e-6, name)) for name in standard.INTEGRATORS]
 
 
 def generated_scene(options):
@@ -123,29 +112,28 @@ ROULETTE_VARIANTS = [*standard.INTEGRATORS, *(f"{name}, {NO_ROULETTE}" for name 
 CURVES = [
     Curve("triangles", "triangles", "Triangles: one mesh, the same view", [10 ** k for k in range(3, 8)],
           [10 ** k for k in range(3, 6)], ["path"], SCENE_COLUMNS, generated_scene(lambda n: ["--triangles", n]),
-          "A height field of so many triangles under an even sky, `path`, 256 × 256 pixels.",
+          "A height field of so many triangles under an even sky; `path`, 256 × 256 pixels.",
           generated=True),
     Curve("instances", "instances", "Instances: one small mesh in many places", [10 ** k for k in range(2, 7)],
           [10 ** k for k in range(2, 5)], ["path"], SCENE_COLUMNS,
           generated_scene(lambda n: ["--triangles", 8, "--instances", n]),
-          "A mesh of 8 triangles in so many places, each a node of the file, all of them in view, `path`, 256 × 256 pixels.",
+          "A mesh of 8 triangles in so many places, each a node of the file and all in view; `path`, 256 × 256 pixels.",
           generated=True),
     Curve("lights", "lights", "Lights: points above one mesh", [10 ** k for k in range(6)], [10 ** k for k in range(0, 5, 2)],
           ["path"], SCENE_COLUMNS, generated_scene(lambda n: ["--triangles", 1000, "--lights", n]),
-          "So many point lights above a height field of 968 triangles, together as bright as one, `path`, 256 × 256 pixels.",
+          "So many point lights above a height field of 968 triangles, together as bright as one; `path`, 256 × 256 pixels.",
           generated=True),
     Curve("depth", "longest path, edges", "Depth: the longest path allowed, cornell-box", [2, 4, 8, 16, 32, 64], [2, 8, 32],
           ROULETTE_VARIANTS,
-          [Column(f"`{name.replace(',', '`,', 1)}" if "," in name else f"`{name}`", MICROSECONDS, name, per_sample(name))
-           for name in ROULETTE_VARIANTS] + memory_columns(),
-          deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. As it comes, Russian roulette ends paths from the third edge "
-          "on; *no roulette* lets them go on until they leave the box or are as long as is allowed."),
+          integrator_columns(ROULETTE_VARIANTS),
+          deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. Russian roulette ends paths from the third edge on; with "
+          "*no roulette* they go on until they leave the box or are as long as is allowed."),
     Curve("resolution", "pixels a side", "Resolution: cornell-box", [128, 256, 512, 1024, 2048], [128, 256, 512],
           list(standard.INTEGRATORS), integrator_columns(), large, "cornell-box, square images."),
     Curve("aovs", "layers", "Layers besides the image, cornell-box", list(layers.SETS), list(layers.SETS),
           list(standard.INTEGRATORS), integrator_columns(), layered,
           "cornell-box, 256 × 256 pixels, so many layers by `--aov`: one is `direct`, four are `direct`, `indirect`, `albedo` "
-          "and `N`, ten are `passes`, forty those of *Layers* below.", logarithmic=False),
+          "and `N`, ten are `passes`, and forty add first hits, costs and sixteen expressions.", logarithmic=False),
 ]
 
 
@@ -172,29 +160,36 @@ def fastest(data):
             for point, of_point in data["points"].items()}
 
 
-def exponents(curve, points):
-    """Of each column, by the last three points."""
-    return [last_exponent([(x, column.value(point)) for x, point in points.items()]) for column in curve.columns]
+def exponent(value, points):
+    """That of the last three points."""
+    return last_exponent([(x, value(point)) for x, point in points.items()])
 
 
-def share_per_layer(curve, points):
-    """By how much of the value without any, each layer raises each column: the slope of a line through all points."""
-    shares = []
-    for column in curve.columns:
-        slope, _ = straight_line(list(points), [column.value(point) for point in points.values()])
-        shares.append(slope / column.value(points[0]))
-    return shares
+def share_of_each(value, points):
+    """By how much of the value without any, each one raises it: the slope of a line through all points."""
+    slope, _ = straight_line(list(points), [value(point) for point in points.values()])
+    return slope / value(points[0])
 
 
-def curve_table(curve, data):
-    points = fastest(data)
-    rows = [[count_text(x), *(figure(column.value(point), column.digits) for column in curve.columns)]
-            for x, point in points.items()]
-    if curve.logarithmic:
-        rows.append(["*exponent*", *map(exponent_text, exponents(curve, points))])
-    else:
-        rows.append(["*of each*", *(f"{100 * share:+.1f}%" for share in share_per_layer(curve, points))])
-    return table([curve.what, *(column.title for column in curve.columns)], rows)
+def growth_table(data):
+    """Of each curve that there is data of by name, and each integrator: the values of the first and the last point, and how
+    they grow in between."""
+    rows = []
+    for curve in CURVES:
+        if curve.name not in data:
+            continue
+        points = fastest(data[curve.name])
+        first, last = next(iter(points.items())), next(reversed(points.items()))
+        for integrator in standard.INTEGRATORS:
+            if integrator not in curve.variants:
+                continue
+            row = [curve.what, f"`{integrator}`", f"{count_text(first[0])} to {count_text(last[0])}"]
+            for value in (per_sample(integrator), of("peak", 1e-6, integrator)):
+                growth = (exponent_text(exponent(value, points)) if curve.logarithmic
+                          else f"{100 * share_of_each(value, points):+.1f}% each")
+                row += [f"{figure(value(first[1]))} to {figure(value(last[1]))}", growth]
+            rows.append(row)
+    return table(["what grows", "", "from, to", "CPU µs a sample", "exponent", "peak, MB", "exponent"], rows, words=(0, 1, 2))
 
 
 def what_each_adds(data):
@@ -205,16 +200,16 @@ def what_each_adds(data):
         return figure(scale * (now["path"][key] - before["path"][key]) / (many - few), 2)
 
     return (f"From {count_text(few)} to {count_text(many)} each one more adds {each('peak', 1)} bytes to the peak, "
-            f"{each('load', 1e6)} µs of loading and {each('build', 1e6)} µs of compiling, of them {each('bvh', 1e6)} µs for the "
-            "BVH.")
+            f"{each('load', 1e6)} µs of loading and {each('build', 1e6)} µs of compiling.")
 
 
 def plot(curve, data):
     points = fastest(data)
+    exponents = [exponent(column.value, points) for column in curve.columns]
     panels = []
-    for title in dict.fromkeys(column.panel for column in curve.columns if column.panel):
+    for title in dict.fromkeys(column.panel for column in curve.columns):
         series = [Series(column.label, [(x, column.value(point)) for x, point in points.items()],
                          k if curve.logarithmic else None)
-                  for column, k in zip(curve.columns, exponents(curve, points)) if column.panel == title]
+                  for column, k in zip(curve.columns, exponents) if column.panel == title]
         panels.append(Panel(title, curve.what, series, curve.logarithmic, curve.logarithmic))
     return curve_plot(curve.title, panels)

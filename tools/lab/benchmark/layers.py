@@ -1,4 +1,4 @@
-"""The layers whose cost is measured, by tools/lab/measure-aovs and tools/lab/bench: what `--aov` is given for so many of them."""
+"""The layers whose cost tools/lab/bench measures: what `--aov` is given for so many of them."""
 
 PASSES = ["passes"]  # ten layers of light
 FIRST_HITS = ["depth", "P", "N", "Ng", "uv", "albedo", "albedo_diffuse", "albedo_specular", "object_id", "material_id",

@@ -40,39 +40,21 @@ def run_of(data, integrator, threads):
     return next((run for run in data["runs"] if (run["integrator"], run["threads"]) == (integrator, threads)), None)
 
 
-def percent(share):
-    return "–" if share is None else f"{100 * share:.0f}%"
-
-
-def integrator_table(scenes, integrator, threads):
-    """Where there is only one processor, what all threads would do is left out."""
-    many = threads[-1]
-    head = [f"`{integrator}`"]
-    for quantity in ("Ms/s", "Mrays/s", "single", "best"):
-        head += [f"{quantity}, {threads[0]}", *(f"on {count}" for count in threads[1:])]
-    if many > 1:
-        head.append("parallel")
+def standard_table(scenes, threads):
+    """One row for each scene: after an integrator's name its million samples a second on all threads, and the efficiency of one
+    thread against single rays."""
+    head = ["scene", "triangles", "first, s", "peak"]
+    for integrator in INTEGRATORS:
+        head += [f"`{integrator}`", "single"]
     rows = []
     for name, data in scenes.items():
-        runs = [run_of(data, integrator, count) for count in threads]
-        row = [name]
-        for key, unit, digits in (("samples_per_second", 1e6, 3), ("rays_per_second", 1e6, 3),
-                                  ("efficiency_single", 1, 2), ("efficiency_best", 1, 2)):
-            row += [figure(None if run[key] is None else run[key] / unit, digits) for run in runs]
-        if many > 1:
-            row.append(percent(runs[-1]["parallel_efficiency"]))
+        row = [name, f"{data['bvh']['triangles']:,}", figure(data["first_pixel"]), figure(data["peak"] / 1e6)]
+        for integrator in INTEGRATORS:
+            one, on_all = (run_of(data, integrator, count) for count in (threads[0], threads[-1]))
+            rate = on_all["samples_per_second"]
+            row += [figure(None if rate is None else rate / 1e6), figure(one["efficiency_single"], 2)]
         rows.append(row)
     return table(head, rows)
-
-
-def start_table(scenes):
-    rows = []
-    for name, data in scenes.items():
-        bvh = data["bvh"]
-        rows.append([name, f"{data['scene']['width']} × {data['scene']['height']}", f"{bvh['triangles']:,}",
-                     f"{bvh['instances']:,}", figure(data["first_pixel"]), figure(1000 * bvh["build_seconds"]),
-                     figure(bvh["triangles_per_second"] / 1e6, 2), figure(data["peak"] / 1e6)])
-    return table(["scene", "pixels", "triangles", "instances", "first pixel, s", "BVH, ms", "Mtris/s", "peak, MB"], rows)
 
 
 def plot(scenes, threads):
