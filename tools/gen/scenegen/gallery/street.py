@@ -36,7 +36,7 @@ def build():
     trim = gltf.add_material("trim", base_color=(0.45, 0.42, 0.37), roughness=0.8)
     glass = gltf.add_material("dark pane", base_color=(0.01, 0.012, 0.016), roughness=0.04)
     shops = [gltf.add_material(f"shop {k + 1}", base_color=(0, 0, 0), emission=color, emissive_texture=gltf.add_texture(
-        f"shop {k + 1}", _shop(256, k))) for k, color in enumerate(((2.6, 1.9, 1.1), (2.4, 1.5, 0.7), (2.0, 1.9, 1.7)))]
+        f"shop {k + 1}", _shop(256, k))) for k, color in enumerate(((0.85, 0.60, 0.33), (0.75, 0.45, 0.20), (0.62, 0.60, 0.54)))]
     lit = []
     for k, color in enumerate(((1.0, 0.62, 0.28), (1.0, 0.72, 0.42), (1.0, 0.50, 0.18), (0.72, 0.84, 1.0), (1.0, 0.80, 0.56))):
         for level in (0.5, 1.1, 2.2):
@@ -142,14 +142,14 @@ def _lanterns(scene, numbers):
     small = [scene.gltf.add_material(f"small bulb {k + 1}", base_color=(0, 0, 0), emission=color)
              for k, color in enumerate(((130.0, 85.0, 40.0), (130.0, 100.0, 60.0), (110.0, 62.0, 24.0)))]
     wire, bulbs = [], [[], [], []]
-    for k in range(15):
-        z0, z1 = -7.0 - 7.2 * k, -7.0 - 7.2 * k - numbers.uniform(-3.0, 3.0)
+    for k in range(28):
+        z0, z1 = -7.0 - 4.2 * k, -7.0 - 4.2 * k - numbers.uniform(-3.0, 3.0)
         reach, sag, high = STREET + PAVEMENT - 0.05, numbers.uniform(0.7, 1.3), numbers.uniform(6.2, 7.0)
         path = [(reach * u, high + sag * (u * u - 1.0), z0 + (z1 - z0) * 0.5 * (u + 1.0)) for u in
-                (-1.0 + 2.0 * i / 40 for i in range(41))]
+                (-1.0 + 2.0 * i / 60 for i in range(61))]
         wire.append(tube(path, 0.008, 5))
         for point in path[1:-1]:
-            bulbs[numbers.randrange(3)].append(sphere(0.035, 2, (point[0], point[1] - 0.05, point[2])))
+            bulbs[numbers.randrange(3)].append(sphere(0.03, 2, (point[0], point[1] - 0.05, point[2])))
     scene.add_object("wires", merged(wire), iron)
     for k, meshes in enumerate(bulbs):
         scene.add_object(f"small bulbs {k + 1}", merged(meshes), small[k])
