@@ -9,8 +9,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools/gen")]
 
-from scenegen.gallery.shapes import rounded_box, smooth_outline, surface, tube  # noqa: E402
-from scenegen.mesh import revolved  # noqa: E402
+from scenegen.gallery.shapes import rounded_box, surface, tube  # noqa: E402
+from scenegen.mesh import revolved, smooth_outline  # noqa: E402
 from scenegen.scenes.caustic_glasses import GOBLET  # noqa: E402
 from scenegen.vector import cross, dot, sub  # noqa: E402
 

@@ -2,10 +2,10 @@
 
 import math
 
-from ..mesh import ground, panel, revolved
+from ..mesh import ground, panel, revolved, smooth_outline
 from ..vector import look_at
 from . import textures
-from .shapes import rounded_box, smooth_outline, surface
+from .shapes import rounded_box, surface
 from .stage import Stage, turned
 
 SQUARE, BOARD_TOP = 0.056, 0.022

@@ -3,12 +3,11 @@
 import math
 import random
 
-from ..mesh import lathe, revolved, wall
+from ..mesh import lathe, revolved, smooth_outline, wall
 from ..scenes.caustic_glasses import GOBLET, TUMBLER, WATER, WINE
 from ..sky import Sky
-from ..vector import look_at
 from . import textures
-from .shapes import rounded_box, smooth_outline, surface
+from .shapes import rounded_box, surface
 from .stage import Stage, turned
 
 SEGMENTS = 192
