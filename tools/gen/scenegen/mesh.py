@@ -322,6 +322,30 @@ def sampled_profile(curve, steps):
     return points, normals
 
 
+def smooth_outline(outline, steps_per_point=8):
+    """Points and normals, for `revolved`, of Catmull and Rom's cubics through points (radius, height) from the axis below
+    to the axis above."""
+    # Mirrored at the axis, so that it is smooth there.
+    ends = [(-outline[1][0], outline[1][1]), *outline, (-outline[-2][0], outline[-2][1])]
+    spans = len(outline) - 1
+
+    def curve(t):
+        span = min(int(t * spans), spans - 1)
+        u = t * spans - span
+        values = []
+        for axis in range(2):
+            p0, p1, p2, p3 = (point[axis] for point in ends[span:span + 4])
+            a, b, c = 0.5 * (p2 - p0), p0 - 2.5 * p1 + 2.0 * p2 - 0.5 * p3, 1.5 * (p1 - p2) + 0.5 * (p3 - p0)
+            values.append((p1 + u * (a + u * (b + u * c)), a + u * (2.0 * b + 3.0 * u * c)))
+        (radius, radius_rate), (height, height_rate) = values
+        return max(radius, 0.0), height, radius_rate, height_rate
+
+    points, normals = sampled_profile(curve, spans * steps_per_point)
+    points[0], points[-1] = (0.0, points[0][1]), (0.0, points[-1][1])
+    normals[0], normals[-1] = (0.0, -1.0), (0.0, 1.0)
+    return points, normals
+
+
 def ring(radius, half_thickness, height, segments, arc_steps):
     """An upright band about the Y axis that stands on y = 0: straight walls, rims rounded to half circles."""
     normals = []

@@ -3,7 +3,7 @@
 import math
 
 from ..generated_scene import GeneratedScene
-from ..mesh import box, lathe, rectangle, revolved, sampled_profile, wall
+from ..mesh import box, lathe, rectangle, revolved, smooth_outline, wall
 from ..patterns import planks
 from ..sky import Sky
 from ..vector import look_at
@@ -47,33 +47,10 @@ def build():
     for name, outline, contents, liquid, x, z in (("goblet", GOBLET, WINE, wine, -0.07, 0.03),
                                                   ("tumbler", TUMBLER, WATER, water, 0.085, 0.10)):
         place = {"closed": True, "translation": (x, top + 0.0003, z)}
-        scene.add_object(name, _blown(outline), glass, **place)
+        scene.add_object(name, revolved(*smooth_outline(outline, STEPS_PER_POINT), SEGMENTS), glass, **place)
         scene.add_object(f"drink in the {name}", lathe(contents, SEGMENTS), liquid, **place)
     scene.add_daylight(Sky(SUN_ELEVATION, SUN_AZIMUTH, TURBIDITY, UNIT, GROUND_ALBEDO), SKY_WIDTH)
     position = (0.06, 1.02, 0.80)
     gltf.add_camera("camera", position, look_at(position, (0.0, 0.805, 0.06)), yfov=math.radians(27.0),
                     aspect_ratio=4.0 / 3.0)
     return scene
-
-
-def _blown(outline):
-    """A smooth body through the points of `outline` (Catmull and Rom's cubics), which begins and ends on the axis."""
-    # Mirrored at the axis, so that it is smooth there.
-    ends = [(-outline[1][0], outline[1][1]), *outline, (-outline[-2][0], outline[-2][1])]
-    spans = len(outline) - 1
-
-    def curve(t):
-        span = min(int(t * spans), spans - 1)
-        u = t * spans - span
-        values = []
-        for axis in range(2):
-            p0, p1, p2, p3 = (point[axis] for point in ends[span:span + 4])
-            a, b, c = 0.5 * (p2 - p0), p0 - 2.5 * p1 + 2.0 * p2 - 0.5 * p3, 1.5 * (p1 - p2) + 0.5 * (p3 - p0)
-            values.append((p1 + u * (a + u * (b + u * c)), a + u * (2.0 * b + 3.0 * u * c)))
-        (radius, radius_rate), (height, height_rate) = values
-        return max(radius, 0.0), height, radius_rate, height_rate
-
-    points, normals = sampled_profile(curve, spans * STEPS_PER_POINT)
-    points[0], points[-1] = (0.0, points[0][1]), (0.0, points[-1][1])
-    normals[0], normals[-1] = (0.0, -1.0), (0.0, 1.0)
-    return revolved(points, normals, SEGMENTS)

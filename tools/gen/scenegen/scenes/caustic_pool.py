@@ -34,13 +34,13 @@ def build():
         256, 8, blues, grout=(0.70, 0.70, 0.66), grout_width=0.07)))
     add_room(scene, (LOW[0], BOTTOM, LOW[1]), (HIGH[0], 0.0, HIGH[1]),
              {side: mosaic for side in ("floor", "left", "right", "back", "front")}, uv_per_meter=1.0 / (8.0 * TILE))
-    scene.add_object("steps", _steps(), mosaic)
+    scene.add_object("steps", steps(), mosaic)
     stone = scene.add_diffuse("stone", (0.52, 0.46, 0.38))
     scene.add_object("deck", _deck(), stone)
     scene.add_object("kerb", _kerb(), scene.add_diffuse("kerb", (0.70, 0.66, 0.58)))
-    water = scene.add_glass("water", 1.33, thickness=LEVEL - BOTTOM, attenuationColor=[0.55, 0.85, 0.92],
+    filling = scene.add_glass("water", 1.33, thickness=LEVEL - BOTTOM, attenuationColor=[0.55, 0.85, 0.92],
                             attenuationDistance=3.0)
-    scene.add_object("water", _water(), water, closed=True)
+    scene.add_object("water", water(), filling, closed=True)
     scene.add_object("ball", sphere(0.24, 24), scene.add_diffuse("ball", (0.75, 0.13, 0.06)), closed=True,
                      translation=(0.75, LEVEL + 0.12, -0.45))
     scene.add_lamp("lamp", sphere(LAMP_RADIUS, LAMP_FREQUENCY), LAMP_RADIANCE, closed=True, translation=LAMP_CENTER)
@@ -63,12 +63,13 @@ def wave(x, z):
     return height, along_x, along_z
 
 
-def _water():
+def water():
+    """The closed body of the water, under its waves."""
     low = (LOW[0] - OVERLAP, BOTTOM - OVERLAP, LOW[1] - OVERLAP)
     return wavy_block(low, (HIGH[0] + OVERLAP, HIGH[1] + OVERLAP), WATER_COLUMNS, WATER_ROWS, wave)
 
 
-def _steps():
+def steps():
     """Boxes whose backs and bottoms reach behind the tiles of the basin."""
     rise = (-BOTTOM + LEVEL) / (STEPS + 1)
     return merged([box((LOW[0] - OVERLAP, BOTTOM - OVERLAP, LOW[1] - OVERLAP),
