@@ -51,7 +51,7 @@ def build():
     _lanterns(scene, numbers)
     scene.camera((-1.6, 1.9, 3.5), (0.9, 4.6, -22.0), 43.0)
     scene.render_json.update({"/integrator/type": "path", "/integrator/max_depth": 8, "/integrator/light_samples": 2,
-                              "/environment/color": [0.010, 0.014, 0.026], "/color/exposure": 1.2})
+                              "/environment/color": [0.010, 0.014, 0.026], "/color/exposure": -0.2})
     return scene
 
 
