@@ -438,7 +438,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
         "scene": "scene.glb", "size": [width, height], "spp": settings.samples, "seed": settings.seed,
         "integrator": integrator_settings(settings), "film": film_settings(render, settings),
         "color": {"working_space": REC709 if settings.working_space == "REC709" else "ACEScg", "output_space": REC709,
-                  "view": "Un-tone-mapped"},
+                  "view": "Un-tone-mapped", "exposure": 0.0},
         "camera": camera.name}
     window = border(render)
     if window is not None:
