@@ -278,9 +278,9 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
         fmt::format_to(out, "environment cube map: images {} {} {} {} {} {}, intensity {:g}, {}\n",
                        e.cube->faces[0].index, e.cube->faces[1].index, e.cube->faces[2].index, e.cube->faces[3].index,
                        e.cube->faces[4].index, e.cube->faces[5].index, e.cube->intensity, text(e.cube->to_world));
-    fmt::format_to(out, "environment: image {}, colour {} scale {:g} rotation {:g}{}\n",
-                   quoted(e.image.filename().string()), text(e.color), e.scale, e.rotation,
-                   e.visible_to_camera ? "" : ", hidden from the camera");
+    fmt::format_to(out, "environment: {}image {}, colour {} scale {:g} rotation {:g}{}\n",
+                   e.is_studio ? "studio, " : "", quoted(e.image.filename().string()), text(e.color), e.scale,
+                   e.rotation, e.visible_to_camera ? "" : ", hidden from the camera");
 }
 
 }  // namespace

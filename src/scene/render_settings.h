@@ -144,6 +144,8 @@ struct RenderSettings {
     MissingTextures missing_textures = MissingTextures::Warn;
     AcceleratorKind accelerator = AcceleratorKind::Embree;  ///< what finds the surfaces that rays meet
     bool cull_backfaces = false;  ///< single-sided surfaces are invisible from behind, but for those of bodies
+    std::optional<bool> studio;   ///< the studio is the environment; none for where nothing else emits light
+    bool ground = true;           ///< the studio has a ground
     FilmSettings film;
     std::vector<AovDesc> aovs;  ///< layers to write besides the image
     AovLayout aov_layout = AovLayout::Layers;

@@ -463,6 +463,8 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     given = environment(scene.world, render.film_transparent, written)
     if given is not None:
         document["environment"] = given
+    else:
+        document["studio"] = False  # a scene without light is black in Blender
     lights = {item.name: lamp(item, version) for item in objects if item.type == "LIGHT"}
     if lights:
         document["lights"] = lights

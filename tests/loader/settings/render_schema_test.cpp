@@ -81,6 +81,7 @@ const char* const kGood[] = {
     R"({"aovs": ["depth", "N:half", "caustics=lpe:C D S+ L:float", "key-2=light:key*"], "aov_layout": "layers"})",
     R"({"texture_memory": "8G"})",
     R"({"accelerator": "kdtree", "cull_backfaces": true})",
+    R"({"studio": true, "ground": false})",
     R"({"mist": {"start": 0, "depth": 0.5, "falloff": "linear"}})",
     R"({"texture_memory": "000512M"})",
     R"({"size": [1, 65536], "crop": [0, 0, 1, 1]})",
@@ -277,6 +278,8 @@ const char* const kBad[] = {
     R"({"lights": {"a": {"visible_to_camera": 1}}})",
     R"({"lights": {"a": {"stops_light": 1}}})",
     R"({"materials": {"a": {"visible_to_camera": 0}}})",
+    R"({"studio": 1})",
+    R"({"ground": "no"})",
     R"({"lights": 3})",
 };
 
