@@ -115,6 +115,7 @@ const char* const kGood[] = {
         "g": {"type": "spot", "intensity": 1, "inner_cone_angle": 0.5, "outer_cone_angle": 1.5707963267948966},
         "h": {"type": "point", "ies": "x.ies"}, "i": {"radius": 1, "visible_to_camera": false, "power": 2},
         "j": {"angle": 0.1, "irradiance": 2}}})",
+    R"({"materials": {"a": {"shadow_catcher": true}, "b": {"diffuse": {}, "shadow_catcher": false}}})",
     R"({"materials": {"a": {"visible_to_camera": false}, "b": {"diffuse": {}, "visible_to_camera": true}}})",
     R"({"materials": {"a": {"base_color": [0.5, 1, 0], "metallic": 0, "roughness": 0, "normal_scale": 1, "emissive":
         [0.5, 1, 0], "emissive_strength": 0, "alpha_cutoff": 0, "ior": 1, "specular": 0, "specular_color": [0.5, 1,
@@ -278,6 +279,7 @@ const char* const kBad[] = {
     R"({"lights": {"a": {"visible_to_camera": 1}}})",
     R"({"lights": {"a": {"stops_light": 1}}})",
     R"({"materials": {"a": {"visible_to_camera": 0}}})",
+    R"({"materials": {"a": {"shadow_catcher": 1}}})",
     R"({"studio": 1})",
     R"({"ground": "no"})",
     R"({"lights": 3})",
