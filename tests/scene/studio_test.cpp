@@ -64,9 +64,9 @@ TEST(Studio, HasNoHorizon) {
 
 TEST(Studio, GroundIsBelowTheLowestVertex) {
     SceneDesc scene = dark_scene();
-    // Turned by 45 degrees, the corner of the mesh's box is lower than any vertex.
+    // Turned upside down by 225 degrees, a corner of the triangle's box is lower than any vertex.
     const float s = std::sqrt(0.5f);
-    scene.instances.at(0).to_world = Mat4f(s, s, 0, 0, -s, s, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+    scene.instances.at(0).to_world = Mat4f(-s, -s, 0, 0, s, -s, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
     float lowest = 1e9f;
     for (const Vec3f& p : scene.meshes.at(0).primitives.at(0).positions)
         lowest = std::min(lowest, transform_point(scene.instances[0].to_world, p).y);
