@@ -132,6 +132,7 @@ TEST_F(FirstPictures, ShadowCatchersAreForEyePaths) {
     write_file(work_ / "a/render.json", settings.dump());
     const std::string said = render({"a", "-o", "a.exr"});
     EXPECT_TRUE(contains(said, "'path' renders, as the material 'Floor' catches shadows")) << said;
+    EXPECT_EQ(json::parse(read_file(work_ / "a.json")).at("integrator"), "path");
     const ProgramResult refused = run({"render", "a", "--integrator", "bdpt", "-o", "b.exr"});
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_TRUE(contains(refused.err, "'bdpt' does not see what the material 'Floor' is to catch")) << refused.err;
