@@ -254,7 +254,7 @@ void require_scenes_kept(std::vector<fs::path> outputs, const std::vector<BatchT
     std::erase_if(outputs, [&](const fs::path& file) { return !fs::exists(file, ignored); });
     if (outputs.empty()) return;
     std::vector<fs::path> inputs = ColorConfig::environment_files();
-    if (options.overrides.environment) inputs.emplace_back(*options.overrides.environment);
+    if (auto file = options.overrides.environment_file()) inputs.push_back(std::move(*file));
     const fs::path* last = nullptr;  // tasks of one scene are beside each other
     for (const BatchTask& task : tasks) {
         if (last == nullptr || *last != task.job.scene)

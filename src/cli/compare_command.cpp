@@ -148,7 +148,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
     report.display = settings.color.display;
     report.view = settings.color.view;
     report.look = settings.color.look;
-    report.exposure = static_cast<double>(settings.color.exposure);
+    report.exposure = static_cast<double>(settings.color.exposure.value_or(0.0f));
     report.threads = threads.thread_count();
     report.isa = variant.world->statistics().isa;
     report.libraries = library_versions();

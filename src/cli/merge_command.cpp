@@ -112,7 +112,10 @@ ExitCode run_merge(const MergeArguments& arguments) {
         image.statistics.libraries = library_versions();
         const std::vector<std::string> earlier =
             write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
-        if (!arguments.quiet) note_earlier_files(earlier);
+        if (!arguments.quiet) {
+            note_exposure(paths, image.statistics);
+            note_earlier_files(earlier);
+        }
     }
     const PixelRect& window = state.film.window();
     if (!arguments.quiet)

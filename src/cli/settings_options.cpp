@@ -229,8 +229,15 @@ void add_settings_options(CLI::App& command, SettingsOverrides& overrides) {
         ->group("Size and camera");
     for (const Setting& setting : settings_table()) add_setting_option(command, setting, overrides);
     command
-        .add_option("--environment", overrides.environment, "Environment image (EXR or HDR), in place of the scene's")
-        ->check(CLI::ExistingFile)
+        .add_option(
+            "--environment", overrides.environment,
+            "Environment image (EXR or HDR) in place of the scene's, or 'neutral' for white from everywhere, or "
+            "'none' for no light from afar")
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                return text == kNoEnvironment || text == kNeutralEnvironment ? std::string() : CLI::ExistingFile(text);
+            },
+            "FILE, neutral or none"))
         ->group(kGroupOfScenes);
     add_assets_option(command, overrides.assets);
     command

@@ -236,7 +236,9 @@ void add_task_options(CLI::App& command, const std::shared_ptr<SubmitArguments>&
 std::vector<GivenOption> options_of_tasks(std::vector<GivenOption> given) {
     given = without(std::move(given), "--frames");
     for (GivenOption& option : given)
-        if (option.name == "--environment" && option.value) option.value = fs::absolute(*option.value).string();
+        if (option.name == "--environment" && option.value && *option.value != kNoEnvironment &&
+            *option.value != kNeutralEnvironment)
+            option.value = fs::absolute(*option.value).string();
     return given;
 }
 

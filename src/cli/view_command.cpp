@@ -44,7 +44,7 @@ struct ViewArguments {
     std::string display;
     std::string view;
     std::string look;
-    float exposure = 0.0f;
+    std::optional<float> exposure;  ///< stops; none for what the file says
     std::optional<DataRange> range;
     int bits = 8;
     bool list = false;
@@ -143,7 +143,7 @@ ImageF show_numbers(const ImageLayer& layer, bool is_matte, const ImageF& image,
     DataPicture picture = show_data(image, style, arguments.range);
     if (!arguments.quiet) {
         const bool is_asked =
-            !arguments.display.empty() || !arguments.view.empty() || !arguments.look.empty() || arguments.exposure != 0;
+            !arguments.display.empty() || !arguments.view.empty() || !arguments.look.empty() || arguments.exposure;
         log_info("{}: numbers, {}{}", layer.name, picture.made,
                  is_asked ? "; display, view, look and exposure are for colours" : "");
     }
@@ -182,8 +182,8 @@ void apply_matrix(ImageF& image, const ColorMatrix& matrix) {
 }
 
 /// With names that the config has. Throws SceneError that names the option.
-DisplayView display_view(const ViewArguments& arguments, std::string space, const ColorConfig& colors) {
-    DisplayView view{std::move(space), arguments.display, arguments.view, arguments.look, arguments.exposure};
+DisplayView display_view(const ViewArguments& arguments, std::string space, float exposure, const ColorConfig& colors) {
+    DisplayView view{std::move(space), arguments.display, arguments.view, arguments.look, exposure};
     view = of_option("--display", [&] { return with_defaults(view, colors); });
     of_option("--display", [&] { (void)colors.views(view.display); });
     of_option("--view", [&] { (void)colors.looks_of_view(view.display, view.view); });
@@ -211,7 +211,8 @@ ImageF show_colors(ImageF image, const ImageInfo& part, const ViewArguments& arg
         convert_space(image, space, colors.default_working_space(), colors);
         space = colors.default_working_space();
     }
-    const DisplayView view = display_view(arguments, std::move(space), colors);
+    const float exposure = arguments.exposure.value_or(std::clamp(part.exposure.value_or(0.0f), -64.0f, 64.0f));
+    const DisplayView view = display_view(arguments, std::move(space), exposure, colors);
     attributes = display_attributes(view);
     attributes.push_back({"etendue:inputSpace", from.space});
     return display_image(image, view, colors);
@@ -244,7 +245,7 @@ ExitCode run_view(const ViewArguments& arguments) {
     const ImageLayer layer = chosen_layer(file, arguments);
     const bool is_matte = is_cryptomatte(layer, file);
     const bool colored = is_colors(layer, is_matte, arguments);
-    if (colored) (void)display_view(arguments, colors.default_working_space(), colors);
+    if (colored) (void)display_view(arguments, colors.default_working_space(), 0.0f, colors);
     ImageF pixels = of_file(arguments.file, [&] { return read_layer(path, layer); });
 
     ImageWriteOptions options;
@@ -281,7 +282,9 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
     command.add_option("--view", arguments.view, "OpenColorIO view, one of the display's (default: the display's)");
     command.add_option("--look", arguments.look,
                        "OpenColorIO look, in place of the view's own; several with commas, or none");
-    command.add_option("--exposure", arguments.exposure, "Stops by which colours are made brighter first (default: 0)")
+    command
+        .add_option("--exposure", arguments.exposure,
+                    "Stops by which colours are made brighter first (default: what the file says, or else 0)")
         ->check(real_range(-64.0, 64.0));
     command.add_option_function<std::string>(
         "--range", [&arguments](const std::string& text) { arguments.range = parse_range(text); },

@@ -44,6 +44,8 @@ struct ImageInfo {
     std::string color_space;
     /// CIE xy of red, green, blue and white, if the file has EXR's attribute of that name.
     std::optional<std::array<float, 8>> chromaticities;
+    /// Stops for which the file says that it is to be shown brighter (`etendue:exposure`), if it does.
+    std::optional<float> exposure;
     /// It says that it follows SMPTE ST 2065-4, and so is in ACES2065-1.
     bool is_aces_container = false;
     /// Where the pixels lie, and the full image that they are a part of, both in the file's coordinates with y down:

@@ -143,6 +143,8 @@ ImageInfo describe(const OpenImage& image) {
     info.format = image.format.name;
     info.color_space = image.spec.get_string_attribute("oiio:ColorSpace");
     info.chromaticities = chromaticities_of(image.spec);
+    if (float stops = 0.0f; image.spec.getattribute("etendue:exposure", OIIO::TypeDesc::FLOAT, &stops))
+        info.exposure = stops;
     info.is_aces_container = image.spec.get_int_attribute("acesImageContainerFlag") == 1;
     info.data_window = window(image.spec.x, image.spec.y, image.spec.width, image.spec.height);
     info.display_window = window(image.spec.full_x, image.spec.full_y, image.spec.full_width, image.spec.full_height);

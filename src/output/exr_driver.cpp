@@ -84,6 +84,7 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         attributes.push_back({"etendue:renderTime", static_cast<float>(frame.render_seconds)});
         if (!frame.command.empty()) attributes.push_back({"etendue:command", frame.command});
     }
+    if (frame.exposure) attributes.push_back({"etendue:exposure", *frame.exposure});
     if (frame.half_share > 0.0f) attributes.push_back({"etendue:halfShare", frame.half_share});
     if (!frame.layers.empty()) {
         // Nothing else is to be denoised, whatever its channels are called.

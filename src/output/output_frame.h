@@ -46,13 +46,14 @@ struct OutputFrame {
     int full_height = 0;        ///< pixels; 0 if the image is not cropped
     float pixel_aspect = 1.0f;  ///< width over height of a pixel
 
-    std::string working_space;    ///< a scene-linear space of the OpenColorIO config
-    std::string display;          ///< of the preview; empty for the config's default
-    std::string view;             ///< of the preview; empty for the display's default
-    std::string look;             ///< of the preview; empty for the view's own
-    float exposure = 0.0f;        ///< stops, preview only
-    std::string output_space;     ///< of the EXR, scene-linear; empty for the working space
-    bool aces_container = false;  ///< the EXR follows SMPTE ST 2065-4
+    std::string working_space;      ///< a scene-linear space of the OpenColorIO config
+    std::string display;            ///< of the preview; empty for the config's default
+    std::string view;               ///< of the preview; empty for the display's default
+    std::string look;               ///< of the preview; empty for the view's own
+    std::optional<float> exposure;  ///< stops, preview only; none before one was asked for or chosen
+    std::string exposure_reason;    ///< why that exposure was chosen; empty if it was asked for
+    std::string output_space;       ///< of the EXR, scene-linear; empty for the working space
+    bool aces_container = false;    ///< the EXR follows SMPTE ST 2065-4
 
     Mat4f world_to_camera;  ///< the camera looks along -Z with +Y up
     /// Projective; x right and y up in [-1, 1] over the full image. None of a panoramic camera.

@@ -6,6 +6,7 @@
 #include "output/display_image.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -26,6 +27,15 @@ std::optional<ImageF> without_overscan(const OutputFrame& frame) {
     return part;
 }
 
+double clipped_share_of(const ImageF& shown) {
+    constexpr float kBrightest = 254.5f / 255.0f;  // what is rounded to it
+    std::size_t clipped = 0;
+    for (std::size_t i = 0; i + 2 < shown.pixels.size(); i += 3)
+        if (std::max({shown.pixels[i], shown.pixels[i + 1], shown.pixels[i + 2]}) >= kBrightest) ++clipped;
+    const std::size_t count = shown.pixels.size() / 3;
+    return count > 0 ? static_cast<double>(clipped) / static_cast<double>(count) : 0.0;
+}
+
 }  // namespace
 
 PreviewDriver::PreviewDriver(std::filesystem::path path, ColorConfig config)
@@ -33,14 +43,16 @@ PreviewDriver::PreviewDriver(std::filesystem::path path, ColorConfig config)
 
 void PreviewDriver::write(const OutputFrame& frame) {
     if (frame.pixels.channels < 3) throw IoError("cannot write " + path_.string() + ": the image is not RGB or RGBA");
-    const DisplayView view =
-        with_defaults({frame.working_space, frame.display, frame.view, frame.look, frame.exposure}, config_);
+    const DisplayView view = with_defaults(
+        {frame.working_space, frame.display, frame.view, frame.look, frame.exposure.value_or(0.0f)}, config_);
     ImageWriteOptions options;
     options.depth = PixelDepth::UInt8;
     options.attributes = display_attributes(view);
     options.attributes.push_back({"etendue:scene", frame.scene});
     const std::optional<ImageF> part = without_overscan(frame);
-    write_image(path_, display_image(part ? *part : frame.pixels, view, config_), options);
+    const ImageF shown = display_image(part ? *part : frame.pixels, view, config_);
+    clipped_share_ = clipped_share_of(shown);
+    write_image(path_, shown, options);
 }
 
 }  // namespace etendue

@@ -14,11 +14,16 @@ class PreviewDriver final : public OutputDriver {
   public:
     PreviewDriver(std::filesystem::path path, ColorConfig config);
 
+    /// Without an exposure the frame is shown as it is.
     void write(const OutputFrame& frame) override;
+
+    /// Returns the share of the pixels that was last written that have a channel as bright as a PNG can show.
+    [[nodiscard]] double clipped_share() const { return clipped_share_; }
 
   private:
     std::filesystem::path path_;
     ColorConfig config_;
+    double clipped_share_ = 0.0;
 };
 
 }  // namespace etendue

@@ -65,6 +65,9 @@ std::string to_json(const RenderStatistics& s) {
     json["inputs"] = s.inputs;
     json["layer_files"] = s.layer_files;
     json["light_units"] = s.light_units;
+    json["exposure"] = {{"stops", s.exposure ? Json(*s.exposure) : Json()},
+                        {"chosen", s.exposure_reason.empty() ? Json() : Json(s.exposure_reason)},
+                        {"clipped_share", s.clipped_share ? Json(*s.clipped_share) : Json()}};
     json["size"] = {s.width, s.height};
     json["full_size"] = {s.full_width, s.full_height};
     json["complete"] = s.complete;

@@ -68,8 +68,12 @@ struct RenderStatistics {
     std::string command;             ///< the command line; empty if there was none
     std::vector<InputFile> inputs;
     std::vector<std::string> layer_files;  ///< names of what lies beside the image and belongs to it
-    std::string light_units;  ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
-    int width = 0;            ///< pixels rendered: the crop window's, or the image's
+    std::string light_units;        ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
+    std::optional<float> exposure;  ///< stops, of the PNG
+    std::string exposure_reason;    ///< why it was chosen; empty if it was asked for
+    std::optional<double>
+        clipped_share;  ///< of the PNG's pixels, those that are as bright as it can show; none without
+    int width = 0;      ///< pixels rendered: the crop window's, or the image's
     int height = 0;
     int full_width = 0;  ///< pixels of the whole image
     int full_height = 0;

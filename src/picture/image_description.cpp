@@ -44,7 +44,7 @@ Json to_object(const OutputFrame& f) {
             {"display", f.display},
             {"view", f.view},
             {"look", f.look},
-            {"exposure", f.exposure},
+            {"exposure", f.exposure ? Json(*f.exposure) : Json()},
             {"output_space", f.output_space},
             {"aces_container", f.aces_container},
             {"world_to_camera", to_object(f.world_to_camera)},
@@ -70,7 +70,7 @@ OutputFrame to_frame(const Json& json) {
     json.at("display").get_to(f.display);
     json.at("view").get_to(f.view);
     f.look = json.value("look", "");  // this and the two below: parts of before they were known have none
-    json.at("exposure").get_to(f.exposure);
+    if (const Json& stops = json.at("exposure"); !stops.is_null()) f.exposure = stops.get<float>();
     f.output_space = json.value("output_space", "");
     f.aces_container = json.value("aces_container", false);
     f.world_to_camera = to_matrix(json.at("world_to_camera"));

@@ -266,8 +266,9 @@ std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors) 
         located(settings, "/color/display", [&] { return colors.default_view(s.display); });
     if (s.view.empty()) s.view = default_view;
     located(settings, "/color/look", [&] { colors.require_look(s.look); });
-    (void)located(settings, "/color/view",
-                  [&] { return colors.display_transform(s.working_space, s.display, s.view, s.exposure, s.look); });
+    (void)located(settings, "/color/view", [&] {
+        return colors.display_transform(s.working_space, s.display, s.view, s.exposure.value_or(0.0f), s.look);
+    });
     s.output_space = resolve_output_space(settings, colors);
     return s.working_space;
 }

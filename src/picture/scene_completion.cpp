@@ -1,12 +1,43 @@
 #include "picture/scene_completion.h"
 
+#include "integrator/integrator.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
 namespace etendue {
+
+namespace {
+
+/// Has `path` render where the pilot was to choose and the camera sees a shadow catcher. Throws SceneError if an
+/// integrator is asked for that does not see its shadow.
+void require_shadows_caught(SceneDesc& scene, ProblemList& problems) {
+    const auto catcher = std::ranges::find(scene.materials, true, &MaterialDesc::catches_shadows);
+    std::string& type = scene.settings.integrator.type;
+    if (catcher == scene.materials.end()) return;
+    if (type == kAutoIntegrator) {
+        type = "path";
+        problems.note(scene.settings.at("/integrator/type"),
+                      fmt::format("'path' renders, as the material '{}' catches shadows", catcher->name));
+        return;
+    }
+    const IntegratorEntry* const entry = find_integrator(type);
+    if (entry == nullptr || entry->catches_shadows || !entry->shows_light) return;
+    throw SceneError(scene.settings.at("/integrator/type"),
+                     fmt::format("'{}' does not see what the material '{}' is to catch: connections from the light "
+                                 "have no alpha; 'path', 'direct' and 'naive' see shadow catchers",
+                                 type, catcher->name));
+}
+
+}  // namespace
 
 void complete_scene(SceneDesc& scene, ProblemList& problems) {
     add_missing_camera_and_light(scene, problems);
     const ProblemList remaining = validate(scene);
     if (remaining.has_errors()) throw SceneError(remaining);
     apply_variant(scene);
+    require_shadows_caught(scene, problems);
 }
 
 }  // namespace etendue

@@ -6,8 +6,9 @@
 
 namespace etendue {
 
-/// Adds a camera and a light where `scene` has none, which `problems` notes, and applies the variant of its materials.
-/// Throws SceneError for what `validate` finds.
+/// Adds a camera and a light where `scene` has none, applies the variant of its materials, and has `path` render shadow
+/// catchers unless an integrator is asked for; `problems` notes what was added and chosen. Throws SceneError for what
+/// `validate` finds, and for integrators that do not see shadow catchers.
 void complete_scene(SceneDesc& scene, ProblemList& problems);
 
 }  // namespace etendue

@@ -187,6 +187,7 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
     if (m.beam.kind == BeamDesc::Kind::Panel) fmt::format_to(out, "  beam of spread {:g}\n", m.beam.spread);
     if (m.beam.kind == BeamDesc::Kind::Spot)
         fmt::format_to(out, "  beam of cone {:g} to {:g}\n", m.beam.inner_cone_angle, m.beam.outer_cone_angle);
+    if (m.catches_shadows) fmt::format_to(out, "  catches shadows\n");
     if (!m.visible_to_camera) fmt::format_to(out, "  hidden from the camera\n");
     fmt::format_to(out, "  specular {:g}, {} color {:g} {:g} {:g}, {}\n", m.specular, text(m.specular_texture),
                    m.specular_color.r, m.specular_color.g, m.specular_color.b, text(m.specular_color_texture));
@@ -278,9 +279,9 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
         fmt::format_to(out, "environment cube map: images {} {} {} {} {} {}, intensity {:g}, {}\n",
                        e.cube->faces[0].index, e.cube->faces[1].index, e.cube->faces[2].index, e.cube->faces[3].index,
                        e.cube->faces[4].index, e.cube->faces[5].index, e.cube->intensity, text(e.cube->to_world));
-    fmt::format_to(out, "environment: image {}, colour {} scale {:g} rotation {:g}{}\n",
-                   quoted(e.image.filename().string()), text(e.color), e.scale, e.rotation,
-                   e.visible_to_camera ? "" : ", hidden from the camera");
+    fmt::format_to(out, "environment: {}image {}, colour {} scale {:g} rotation {:g}{}\n",
+                   e.is_studio ? "studio, " : "", quoted(e.image.filename().string()), text(e.color), e.scale,
+                   e.rotation, e.visible_to_camera ? "" : ", hidden from the camera");
 }
 
 }  // namespace

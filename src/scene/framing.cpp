@@ -1,6 +1,7 @@
 // The camera and light of a scene that brings none.
 
 #include "scene/scene_desc.h"
+#include "scene/studio.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,15 +102,22 @@ Bounds compute_bounds(const SceneDesc& scene) {
 
 void add_missing_camera_and_light(SceneDesc& scene, ProblemList& problems) {
     const SourceLocation where{scene.file.string(), {}};
-    if (scene.cameras.empty()) {
+    const bool is_bare_model = scene.cameras.empty();
+    if (is_bare_model) {
         scene.cameras.push_back(framing_camera(compute_bounds(scene), scene.settings.film.aspect()));
         problems.note(where, "the scene has no camera: one was placed to frame the bounding box");
     }
-    if (!has_light(scene)) {
-        scene.environment = {};
-        scene.environment.enabled = true;
-        problems.note(where, "nothing in the scene emits light: a neutral environment of radiance 1 was added");
-    }
+    const std::optional<bool>& studio = scene.settings.studio;
+    const bool is_dark = !has_light(scene);
+    if (studio.value_or(is_dark)) add_studio(scene, problems);
+    if (is_dark && !studio)
+        problems.note(where,
+                      fmt::format("nothing in the scene emits light: it is lit by a studio{}; --environment gives "
+                                  "other light",
+                                  scene.settings.ground ? ", whose ground --no-ground leaves out" : ""));
+    if (is_bare_model && !studio && scene.lights.empty() && has_emissive_instance(scene) && !scene.environment.enabled)
+        problems.note(where, "only surfaces of the model emit light; --studio adds a studio");
+    if (is_dark && studio && !*studio) problems.note(where, "nothing in the scene emits light: the image is black");
 }
 
 }  // namespace etendue

@@ -79,6 +79,7 @@ struct EnvironmentDesc {
     float scale = 1.0f;               ///< multiplies the radiance, >= 0
     float rotation = 0.0f;            ///< radians about +Y, counter-clockwise seen from above
     bool visible_to_camera = true;
+    bool is_studio = false;  ///< it is what `studio_radiance` says, times colour and scale, in place of all images
     SourceLocation location;
 };
 

@@ -141,6 +141,7 @@ struct MaterialDesc {
     TextureRef emissive_texture;  ///< sRGB
     BeamDesc beam;                ///< of one-sided materials
     bool visible_to_camera = true;
+    bool catches_shadows = false;  ///< the camera sees of it how much light is taken from it, as alpha, and no more
 
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;

@@ -83,12 +83,12 @@ struct FilmSettings {
 };
 
 struct ColorSettings {
-    std::string working_space;  ///< empty for the config's scene_linear role
-    std::string display;        ///< of the preview image; empty for the config's default
-    std::string view;           ///< of the preview image; empty for the display's default
-    std::string look;           ///< of the preview image, in place of the view's own; empty for those
-    float exposure = 0.0f;      ///< stops, applied to the preview image only
-    std::string output_space;   ///< of the EXR; empty for the working space
+    std::string working_space;      ///< empty for the config's scene_linear role
+    std::string display;            ///< of the preview image; empty for the config's default
+    std::string view;               ///< of the preview image; empty for the display's default
+    std::string look;               ///< of the preview image, in place of the view's own; empty for those
+    std::optional<float> exposure;  ///< stops, applied to the preview image only; none for what the image asks for
+    std::string output_space;       ///< of the EXR; empty for the working space
     /// The EXR follows SMPTE ST 2065-4: ACES2065-1, which `output_space` is then or is empty.
     bool aces_container = false;
 };
@@ -150,6 +150,8 @@ struct RenderSettings {
     MissingTextures missing_textures = MissingTextures::Warn;
     AcceleratorKind accelerator = AcceleratorKind::Embree;  ///< what finds the surfaces that rays meet
     bool cull_backfaces = false;  ///< single-sided surfaces are invisible from behind, but for those of bodies
+    std::optional<bool> studio;   ///< the studio is the environment; none for where nothing else emits light
+    bool ground = true;           ///< the studio has a ground
     FilmSettings film;
     std::vector<AovDesc> aovs;  ///< layers to write besides the image
     AovLayout aov_layout = AovLayout::Layers;

@@ -100,8 +100,8 @@ void apply_variant(SceneDesc& scene);
 /// that is no less than twice their size: a scene that is moved by round numbers stays the same to the bit.
 [[nodiscard]] Vec3d choose_origin(const Bounds& bounds);
 
-/// Adds a camera that frames the bounding box if there is none, and a neutral constant environment if nothing emits
-/// light. Each addition is reported to `problems` as a note.
+/// Adds a camera that frames the bounding box if there is none, and the studio where the settings ask for it or nothing
+/// emits light. Each addition is reported to `problems` as a note.
 void add_missing_camera_and_light(SceneDesc& scene, ProblemList& problems);
 
 }  // namespace etendue

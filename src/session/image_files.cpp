@@ -2,6 +2,7 @@
 
 #include "core/log.h"
 #include "core/write_file.h"
+#include "output/auto_exposure.h"
 #include "output/preview_driver.h"
 #include "picture/exr_files.h"
 #include "process/peak_memory.h"
@@ -10,10 +11,67 @@
 #include "session/up_to_date.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
 #include <system_error>
 
+#include <nlohmann/json.hpp>
+
 namespace etendue {
+
+namespace {
+
+/// Returns the exposure that was chosen for the first of the frames before number `frame` that lie beside
+/// `statistics`, the file that this one will have, if they are of `scene`.
+std::optional<float> exposure_of_sequence(const std::filesystem::path& statistics, int frame,
+                                          const std::string& scene) {
+    if (frame < 0) return std::nullopt;
+    // The last run of digits that is the frame's number: 0007 in shot.0007.json.
+    const std::string name = statistics.filename().string();
+    std::size_t end = name.find_last_of("0123456789");
+    if (end == std::string::npos) return std::nullopt;
+    const std::size_t begin = name.find_last_not_of("0123456789", end) + 1;  // 0 if all are digits
+    ++end;
+    std::map<int, std::filesystem::path> before;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(absolute(statistics).parent_path(), ignored)) {
+        const std::string other = entry.path().filename().string();
+        const std::size_t rest = name.size() - end;
+        if (other.size() <= begin + rest || !other.starts_with(name.substr(0, begin)) ||
+            !other.ends_with(name.substr(end)))
+            continue;
+        int number = 0;
+        const char* const last = other.data() + other.size() - rest;
+        const auto [read_to, problem] = std::from_chars(other.data() + begin, last, number);
+        if (problem == std::errc() && read_to == last && number >= 0 && number < frame)
+            before.emplace(number, entry.path());
+    }
+    for (const auto& [number, path] : before) {
+        std::ifstream file(path);
+        const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+        if (!json.is_object() || !json.contains("exposure") || json.value("scene", "") != scene) continue;
+        const nlohmann::json& exposure = json.at("exposure");
+        if (exposure.is_object() && exposure.contains("chosen") && exposure.at("chosen").is_string() &&
+            exposure.contains("stops") && exposure.at("stops").is_number())
+            return exposure.at("stops").get<float>();
+    }
+    return std::nullopt;
+}
+
+/// Chooses an exposure for a frame that asks for none: of a sequence, that of its first image.
+void settle_exposure(const OutputPaths& paths, OutputFrame& frame) {
+    if (!frame.exposure && frame.frame) {
+        frame.exposure = exposure_of_sequence(paths.json, *frame.frame, frame.scene);
+        if (frame.exposure) frame.exposure_reason = "that of the first frame";
+    }
+    choose_missing_exposure(frame);
+}
+
+}  // namespace
 
 std::filesystem::path preview_path(const std::filesystem::path& output) {
     std::filesystem::path path = output;
@@ -39,8 +97,15 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
     std::error_code ignored;
     if (std::filesystem::is_regular_file(std::filesystem::symlink_status(paths.json, ignored)))
         std::filesystem::remove(paths.json, ignored);
+    settle_exposure(paths, image.frame);
+    image.statistics.exposure = image.frame.exposure;
+    image.statistics.exposure_reason = image.frame.exposure_reason;
     write_exr_files(paths.exr, image, colors, depth);
-    if (!paths.png.empty()) PreviewDriver(paths.png, colors).write(image.frame);
+    if (!paths.png.empty()) {
+        PreviewDriver driver(paths.png, colors);
+        driver.write(image.frame);
+        image.statistics.clipped_share = driver.clipped_share();
+    }
     if (beside) beside();
     image.statistics.layer_files = layer_file_names(paths.exr, image);
     image.statistics.write = timer.elapsed();
@@ -56,6 +121,17 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
 void note_earlier_files(const std::vector<std::string>& names) {
     for (const std::string& name : names)
         log_warning("note: {} is of the image that was replaced, and still there", name);
+}
+
+void note_exposure(const OutputPaths& paths, const RenderStatistics& statistics) {
+    if (paths.png.empty()) return;
+    if (!statistics.exposure_reason.empty())
+        log_info("{}: exposure {:+.2f} stops (--exposure): {}", paths.png.string(), statistics.exposure.value_or(0.0f),
+                 statistics.exposure_reason);
+    constexpr double kMuch = 0.05;
+    if (statistics.clipped_share.value_or(0.0) > kMuch)
+        log_warning("note: {}: {:.0f}% of the pixels are as bright as it can show; a lower --exposure shows more",
+                    paths.png.string(), 100.0 * *statistics.clipped_share);
 }
 
 }  // namespace etendue

@@ -30,6 +30,9 @@ namespace etendue {
 std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescription& image, const ColorConfig& colors,
                                            PixelDepth depth, const std::function<void()>& beside = {});
 
+/// Says which exposure was chosen for the PNG, and how much of it is clipped if that is over 5% of its pixels.
+void note_exposure(const OutputPaths& paths, const RenderStatistics& statistics);
+
 /// A note for each of these names.
 void note_earlier_files(const std::vector<std::string>& names);
 

@@ -3,6 +3,7 @@
 #include "color/color_config.h"
 #include "core/log.h"
 #include "image/image_module.h"
+#include "output/auto_exposure.h"
 #include "output/preview_driver.h"
 #include "picture/aov_setup.h"
 #include "picture/image_description.h"
@@ -245,7 +246,8 @@ class SceneRender {
         std::optional<Checkpoint> kept;
         if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
         if (!kept) kept = checkpoints_.read(expected, request_.quiet);
-        if (!kept && !is_partial(output_)) kept = read_sums(sums_path(output_), expected, options_.spp, request_.quiet);
+        if (!kept && !is_partial(output_))
+            kept = read_sums(sums_path(output_), expected, static_cast<int>(options_.spp), request_.quiet);
         return kept;
     }
 
@@ -355,6 +357,7 @@ class SceneRender {
         const std::filesystem::path path = preview_path(output_);
         ImageDescription now = description_;
         describe_state(now, state, false, "preview");
+        choose_missing_exposure(now.frame);
         try {
             PreviewDriver(path, colors_).write(now.frame);
             if (!request_.quiet) log_info("{}: preview after {} samples per pixel", path.string(), state.spp_done);
@@ -379,7 +382,9 @@ class SceneRender {
                 write_strategies_image(request_.strategies, world, settings_.integrator, options_, description_.frame,
                                        colors_, depth, threads_, title(), request_.quiet);
         });
-        if (!request_.quiet) note_earlier_files(earlier);
+        if (request_.quiet) return;
+        note_exposure(paths_, description_.statistics);
+        note_earlier_files(earlier);
     }
 
     [[nodiscard]] const std::string& title() const {

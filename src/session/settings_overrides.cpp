@@ -96,13 +96,25 @@ void SettingsOverrides::apply(RenderSettings& settings) const {
                          "an ACES container (SMPTE ST 2065-4) holds 16-bit floats; leave --float out");
 }
 
+std::optional<std::filesystem::path> SettingsOverrides::environment_file() const {
+    if (!environment || *environment == kNoEnvironment || *environment == kNeutralEnvironment) return std::nullopt;
+    return *environment;
+}
+
 void SettingsOverrides::apply_environment(SceneDesc& scene) const {
     if (!environment) return;
-    scene.environment.enabled = true;
-    scene.environment.image = std::filesystem::absolute(*environment);
-    scene.environment.color = Rgb(1.0f);
+    if (has("/studio")) throw SceneError({"--environment", {}}, "--studio puts another light in its place: give one");
+    if (scene.settings.studio || *environment == kNoEnvironment) scene.settings.studio = false;
+    if (const auto file = environment_file()) {
+        scene.environment.enabled = true;
+        scene.environment.image = std::filesystem::absolute(*file);
+        scene.environment.color = Rgb(1.0f);
+        scene.inputs.push_back(scene.environment.image);
+    } else {
+        scene.environment = {};
+        scene.environment.enabled = *environment == kNeutralEnvironment;
+    }
     scene.environment.location = {*environment, ""};
-    scene.inputs.push_back(scene.environment.image);
 }
 
 LoadOptions SettingsOverrides::load_options() const {

@@ -29,11 +29,15 @@ struct GivenSetting {
     std::string option;
 };
 
+/// Stand in place of the file of an environment: no light from afar, and white of radiance 1 from everywhere.
+inline constexpr std::string_view kNoEnvironment = "none";
+inline constexpr std::string_view kNeutralEnvironment = "neutral";
+
 struct SettingsOverrides {
     std::optional<Quality> quality;
     std::map<std::string, GivenSetting, std::less<>> given;  ///< by JSON pointers; layers are those to add
     bool deep = false;
-    std::optional<std::string> environment;
+    std::optional<std::string> environment;     ///< a file, or one of the words above
     std::vector<std::filesystem::path> assets;  ///< as in LoadOptions
     std::optional<int> frame;                   ///< of the sequence, that is shown
     PixelDepth depth = PixelDepth::Half;
@@ -56,7 +60,10 @@ struct SettingsOverrides {
     /// ACES container.
     void apply(RenderSettings& settings) const;
 
-    /// Puts the given environment in place of the scene's.
+    /// Returns the file of the environment if one is given.
+    [[nodiscard]] std::optional<std::filesystem::path> environment_file() const;
+
+    /// Puts the given environment in place of the scene's. Throws SceneError if the studio is given, too.
     void apply_environment(SceneDesc& scene) const;
 
     /// Says how to load a scene for these.

@@ -118,8 +118,8 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
         frame.working_space = frame.output_space;
     }
     ExrDriver(request.output, colors, depth).write_parts(frame, strategy_parts(images));
-    const DisplayView view =
-        with_defaults({frame.working_space, frame.display, frame.view, frame.look, frame.exposure}, colors);
+    const DisplayView view = with_defaults(
+        {frame.working_space, frame.display, frame.view, frame.look, frame.exposure.value_or(0.0f)}, colors);
     ImageWriteOptions png;
     png.depth = PixelDepth::UInt8;
     png.attributes = display_attributes(view);

@@ -1,6 +1,7 @@
 #include "image/displayed.h"
 #include "image/finite.h"
 #include "image/read.h"
+#include "scene/studio.h"
 #include "texture/cube_map.h"
 #include "world/compile_parts.h"
 
@@ -106,11 +107,28 @@ Light compile_cube(const SceneDesc& scene, const CubeMapDesc& desc, const ColorM
     return ImageEnvironment(std::move(image), scene.environment.rotation);
 }
 
+/// The studio as an image of latitude and longitude.
+Light compile_studio(const EnvironmentDesc& desc, const ColorMatrix& from_rec709, const ThreadPool& threads) {
+    constexpr int kRows = 256;
+    const Rgb tint = clamp_negative(from_rec709(desc.color * desc.scale));
+    ImageF image(2 * kRows, kRows, 3);
+    threads.parallel_for(kRows, [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < image.width; ++x) {
+            const Vec2f position((static_cast<float>(x) + 0.5f) / static_cast<float>(image.width),
+                                 (static_cast<float>(y) + 0.5f) / static_cast<float>(kRows));
+            store(tint * studio_radiance(latitude_longitude_direction(position)), image.pixel(x, y));
+        }
+    });
+    return ImageEnvironment(std::move(image), desc.rotation);
+}
+
 }  // namespace
 
 Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709, const ThreadPool& threads,
                           ProblemList& problems) {
     const EnvironmentDesc& desc = scene.environment;
+    if (desc.is_studio) return compile_studio(desc, from_rec709, threads);
     if (!desc.image.empty()) return compile_image(desc, from_rec709, problems);
     if (desc.cube) return compile_cube(scene, *desc.cube, from_rec709, threads);
     return ConstantEnvironment{clamp_negative(from_rec709(desc.color * desc.scale))};

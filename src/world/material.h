@@ -102,6 +102,7 @@ struct Material {
     Beam beam;  ///< of emission
 
     bool visible_to_camera = true;  ///< false: what the camera sees straight or through panes goes on behind it
+    bool catches_shadows = false;   ///< the camera sees straight what share of its light is taken from it
     bool culls_back = false;        ///< the eye does not see it from behind, straight or by any way
 
     AlphaTest alpha_test = AlphaTest::Opaque;

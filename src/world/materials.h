@@ -56,6 +56,8 @@ class Materials {
     [[nodiscard]] bool is_hidden_from_camera(const Hit& hit) const {
         return hit.valid() && !at(hit)->visible_to_camera;
     }
+    /// Returns whether the surface at `hit` is there and shows the camera shadows in its place.
+    [[nodiscard]] bool catches_shadows(const Hit& hit) const { return hit.valid() && at(hit)->catches_shadows; }
     /// Returns the index of the material of `point`, as in the description.
     [[nodiscard]] std::uint32_t index(const SurfacePoint& point) const {
         return static_cast<std::uint32_t>(point.material - data_.materials.data());

@@ -53,6 +53,7 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.has_unlit_surfaces = has_surface([](const Material& material) { return material.unlit; });
     traits.has_emitting_surfaces = has_surface([](const Material& material) { return material.emits; });
     traits.hides_surfaces = has_surface([](const Material& material) { return !material.visible_to_camera; });
+    traits.has_shadow_catchers = has_surface([](const Material& material) { return material.catches_shadows; });
     traits.has_unsampled_emitters = data.has_unsampled_emitters;
 
     traits.has_bodies = !data.filling_of_body.empty();

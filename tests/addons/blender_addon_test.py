@@ -132,6 +132,7 @@ class World(unittest.TestCase):
 
     def test_colours(self):
         self.assertIsNone(self.environment(None)[0])
+        self.assertIs(written().document["studio"], False, "Blender has no light that it is not given")
         self.assertEqual(self.environment(fake.world(self.background()))[0], {"scale": 2.0, "color": [0.5, 0.5, 1.0]})
         self.assertIs(self.environment(fake.world(self.background()), True)[0]["visible_to_camera"], False)
         self.assertIs(self.environment(fake.world(self.background(), visible_camera=False))[0]["visible_to_camera"], False)

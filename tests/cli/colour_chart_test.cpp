@@ -118,6 +118,7 @@ void write_chart_scene(const fs::path& directory) {
                            {"integrator", {{"max_depth", 1}}},
                            {"film", {{"filter", "box"}}},
                            {"environment", {{"color", {0, 0, 0}}}},
+                           {"color", {{"exposure", 0}}},
                            {"camera",
                             {{"type", "orthographic"},
                              {"position", {0.5 * kColumns, 0.5 * kRows, 5}},

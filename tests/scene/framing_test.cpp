@@ -1,6 +1,7 @@
 #include "scene/scene_desc.h"
 #include "scene/small_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -77,6 +78,7 @@ TEST(AddMissing, CameraFramesTheBoxTightly) {
             scene.settings.film.height = height;
             scene.meshes[0].primitives[0].positions = {Vec3f(3, 4, 5), Vec3f(3, 4, 5) + size, Vec3f(3, 4, 5)};
             ProblemList problems;
+            scene.settings.ground = false;  // it is no part of what the camera frames
             add_missing_camera_and_light(scene, problems);
             const auto [x, y] = extent_in_frame(scene);
             EXPECT_LE(std::max(x, y), 1.0f);
@@ -108,25 +110,58 @@ TEST(AddMissing, LeavesWhatIsThere) {
     EXPECT_TRUE(problems.all().empty());
 }
 
-TEST(AddMissing, EnvironmentOnlyIfNothingEmits) {
-    const auto adds_environment = [](SceneDesc scene) {
+TEST(AddMissing, StudioIfItIsAskedFor) {
+    SceneDesc lit = small_scene();
+    lit.settings.studio = true;
+    lit.environment.enabled = true;
+    lit.environment.image = "sky.exr";
+    ProblemList problems;
+    add_missing_camera_and_light(lit, problems);
+    EXPECT_TRUE(lit.environment.is_studio);
+    EXPECT_TRUE(lit.environment.image.empty());
+    EXPECT_FALSE(lit.lights.empty()) << "lamps stay";
+
+    SceneDesc dark = bare_scene();
+    dark.settings.studio = false;
+    add_missing_camera_and_light(dark, problems);
+    EXPECT_FALSE(dark.environment.enabled);
+    EXPECT_NE(problems.all().back().message.find("the image is black"), std::string::npos);
+}
+
+TEST(AddMissing, HintsAtTheStudioWhereOnlyAModelGlows) {
+    const auto hints = [](SceneDesc scene) {
+        scene.materials.at(0).emissive = Rgb(1.0f);
         ProblemList problems;
         add_missing_camera_and_light(scene, problems);
-        return scene.environment.enabled;
+        return std::ranges::any_of(problems.all(), [](const Problem& problem) {
+            return problem.message.find("--studio adds a studio") != std::string::npos;
+        });
     };
-    EXPECT_TRUE(adds_environment(bare_scene()));
+    EXPECT_TRUE(hints(bare_scene()));
+    SceneDesc set = bare_scene();
+    set.cameras = small_scene().cameras;
+    EXPECT_FALSE(hints(set)) << "what has a camera is meant to look as it does";
+}
+
+TEST(AddMissing, StudioOnlyIfNothingEmits) {
+    const auto adds_studio = [](SceneDesc scene) {
+        ProblemList problems;
+        add_missing_camera_and_light(scene, problems);
+        return scene.environment.is_studio;
+    };
+    EXPECT_TRUE(adds_studio(bare_scene()));
 
     SceneDesc lit = bare_scene();
     lit.lights.emplace_back();
-    EXPECT_FALSE(adds_environment(lit));
+    EXPECT_FALSE(adds_studio(lit));
     lit.lights[0].intensity = 0.0f;
-    EXPECT_TRUE(adds_environment(lit));
+    EXPECT_TRUE(adds_studio(lit));
 
     SceneDesc glowing = bare_scene();
     glowing.materials[0].emissive = Rgb(1.0f);
-    EXPECT_FALSE(adds_environment(glowing));
+    EXPECT_FALSE(adds_studio(glowing));
     glowing.instances.clear();  // the material is there, but nothing with it
-    EXPECT_TRUE(adds_environment(glowing));
+    EXPECT_TRUE(adds_studio(glowing));
 }
 
 }  // namespace

@@ -438,7 +438,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
         "scene": "scene.glb", "size": [width, height], "spp": settings.samples, "seed": settings.seed,
         "integrator": integrator_settings(settings), "film": film_settings(render, settings),
         "color": {"working_space": REC709 if settings.working_space == "REC709" else "ACEScg", "output_space": REC709,
-                  "view": "Un-tone-mapped"},
+                  "view": "Un-tone-mapped", "exposure": 0.0},
         "camera": camera.name}
     window = border(render)
     if window is not None:
@@ -463,6 +463,8 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     given = environment(scene.world, render.film_transparent, written)
     if given is not None:
         document["environment"] = given
+    else:
+        document["studio"] = False  # a scene without light is black in Blender
     lights = {item.name: lamp(item, version) for item in objects if item.type == "LIGHT"}
     if lights:
         document["lights"] = lights

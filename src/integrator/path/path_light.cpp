@@ -166,7 +166,8 @@ void PathLight::add_environment(const PathContext& context) {
     std::array<Vec3f, PathBlock::kSize> directions;
     for (const std::size_t k : block_.escaped) {
         if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
-            alpha_[paths_.slot[block_.first + k]] = 0.0f;
+            // A path without light has met a shadow catcher, which has given it its alpha.
+            if (!is_black(paths_.throughput[block_.first + k])) alpha_[paths_.slot[block_.first + k]] = 0.0f;
             continue;
         }
         if (!world.traits().has_environment || paths_.edges(block_.first + k) < context.settings.lengths.min_depth)

@@ -38,6 +38,8 @@ class PathLight {
     /// Adds what the first `count` samples have found to `tile`.
     void finish(const TileJob& job, std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
+    /// Gives the sample in `slot`, whose path carries no light, an alpha of its own.
+    void set_alpha(std::size_t slot, float alpha) { alpha_[slot] = alpha; }
     /// Adds the light of the environment to paths of the block that have left the scene.
     void add_environment(const PathContext& context);
     /// Adds the light of suns to those of them that scatter or mirror it.

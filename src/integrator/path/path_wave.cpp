@@ -2,6 +2,7 @@
 
 #include "core/vector_bytes.h"
 #include "transport/roulette.h"
+#include "transport/shadow_catcher.h"
 #include "wave/aov/first_hits.h"
 #include "wave/ray_batch.h"
 
@@ -39,6 +40,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
             const std::span hits = std::span(paths_.hits).first(count);
             find_first_hits(world, job, samples, camera_rays, hits, tile);
             light_.lamps().note(samples, camera_rays, hits, counters);
+            if (world.traits().has_shadow_catchers) catch_shadows(world, job, count, counters);
         }
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { light_.trace_shadow_rays(world, job, tile, counters); };
@@ -58,6 +60,20 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
         if (world.materials().is_hidden_from_camera(hit))
             hit = intersect_one(world, job, RayKind::Primary, rays[i], counters);
         if (world.traits().clips_far && world.camera().is_too_far(rays[i], hit)) hit = {};
+    }
+}
+
+void PathWave::catch_shadows(const World& world, const TileJob& job, std::size_t count, RenderCounters& counters) {
+    const bool shows_environment = !world.environment().met(true).empty();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!world.materials().catches_shadows(paths_.hits[i])) continue;
+        const Ray ray = paths_.ray(i);
+        const SurfacePoint point = world.geometry().surface_point(paths_.hits[i]);
+        const float shadow = caught_shadow(world, point, -ray.direction, ray.time, {job.sequence, paths_.key(i)});
+        counters.rays[RayKind::Shadow] += kCatcherSamples;
+        paths_.hits[i] = {};
+        paths_.throughput.set(i, Rgb(shows_environment ? 1.0f - shadow : 0.0f));
+        if (!shows_environment) light_.set_alpha(i, shadow);
     }
 }
 

@@ -79,6 +79,7 @@ void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& prob
             apply_factors(change, material, problems);
             if (change.priority) apply_priority(*change.priority, change.location, material, problems);
             material.visible_to_camera = change.visible_to_camera.value_or(material.visible_to_camera);
+            material.catches_shadows = change.catches_shadows.value_or(material.catches_shadows);
             if (change.emission) set_emission(change.emission->color, change.emission->strength, material);
         }
     }

@@ -32,7 +32,7 @@ void note_bright_lamps(const std::map<std::string, LightOverride>& changes, cons
         return !change.kind && (change.intensity || change.power || change.irradiance || change.scale != 1.0f);
     });
     const Bounds bounds = compute_bounds(scene);
-    if (is_set || scene.settings.light_units != LightUnits::Photometric || scene.settings.color.exposure != 0.0f ||
+    if (is_set || scene.settings.light_units != LightUnits::Photometric || scene.settings.color.exposure ||
         !(length(bounds.size()) > 0.0f))
         return;
     double illuminance = 0.0;

@@ -30,6 +30,7 @@ struct MaterialOverride {
     std::vector<FactorChange> factors;  ///< of the glTF material; none beside a model
     std::optional<bool> solid;          ///< the mesh bounds a body of the glTF material; none beside a model
     std::optional<bool> visible_to_camera;
+    std::optional<bool> catches_shadows;
     bool is_from_extras = false;  ///< of the scene file: errors are warnings
     SourceLocation location;
 };

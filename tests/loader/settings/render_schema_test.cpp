@@ -81,6 +81,7 @@ const char* const kGood[] = {
     R"({"aovs": ["depth", "N:half", "caustics=lpe:C D S+ L:float", "key-2=light:key*"], "aov_layout": "layers"})",
     R"({"texture_memory": "8G"})",
     R"({"accelerator": "kdtree", "cull_backfaces": true})",
+    R"({"studio": true, "ground": false})",
     R"({"mist": {"start": 0, "depth": 0.5, "falloff": "linear"}})",
     R"({"texture_memory": "000512M"})",
     R"({"size": [1, 65536], "crop": [0, 0, 1, 1]})",
@@ -114,6 +115,7 @@ const char* const kGood[] = {
         "g": {"type": "spot", "intensity": 1, "inner_cone_angle": 0.5, "outer_cone_angle": 1.5707963267948966},
         "h": {"type": "point", "ies": "x.ies"}, "i": {"radius": 1, "visible_to_camera": false, "power": 2},
         "j": {"angle": 0.1, "irradiance": 2}}})",
+    R"({"materials": {"a": {"shadow_catcher": true}, "b": {"diffuse": {}, "shadow_catcher": false}}})",
     R"({"materials": {"a": {"visible_to_camera": false}, "b": {"diffuse": {}, "visible_to_camera": true}}})",
     R"({"materials": {"a": {"base_color": [0.5, 1, 0], "metallic": 0, "roughness": 0, "normal_scale": 1, "emissive":
         [0.5, 1, 0], "emissive_strength": 0, "alpha_cutoff": 0, "ior": 1, "specular": 0, "specular_color": [0.5, 1,
@@ -277,6 +279,9 @@ const char* const kBad[] = {
     R"({"lights": {"a": {"visible_to_camera": 1}}})",
     R"({"lights": {"a": {"stops_light": 1}}})",
     R"({"materials": {"a": {"visible_to_camera": 0}}})",
+    R"({"materials": {"a": {"shadow_catcher": 1}}})",
+    R"({"studio": 1})",
+    R"({"ground": "no"})",
     R"({"lights": 3})",
 };
 

@@ -1,0 +1,194 @@
+// The studio, in which all integrators see the same, and shadow catchers, which stand for a ground that is elsewhere.
+#include "scene/studio.h"
+
+#include "integrator/agreement_render.h"
+#include "integrator/closed_form_scene.h"
+#include "integrator/integrator.h"
+#include "support/chi2.h"
+#include "world/test_scene.h"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+namespace {
+
+/// A camera at `eye` that looks at `target`.
+void look_at(SceneDesc& scene, const Vec3f& eye, const Vec3f& target) {
+    CameraDesc& camera = scene.cameras.at(0);
+    const Vec3f z = normalize(eye - target);
+    const Vec3f x = normalize(cross(Vec3f(0.0f, 1.0f, 0.0f), z));
+    const Vec3f y = cross(z, x);
+    camera.to_world = Mat4f(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, eye.x, eye.y, eye.z, 1);
+    camera.yfov = 0.8f;
+}
+
+/// A matte and a mirroring ball, and one of glass, in the studio.
+SceneDesc balls_in_studio() {
+    SceneDesc scene = empty_scene();
+    MaterialDesc mirror;
+    mirror.override_model = ConductorDesc{.metal = "Ag", .roughness = 0.3f};
+    MaterialDesc glass;
+    glass.override_model = DielectricDesc{};
+    add_object(scene, sphere({-1.1f, 0.5f, 0.0f}, 0.5f, 12), add_material(scene, diffuse(Rgb(0.6f, 0.3f, 0.2f))));
+    add_object(scene, sphere({0.0f, 0.5f, 0.0f}, 0.5f, 12), add_material(scene, mirror));
+    add_object(scene, sphere({1.1f, 0.5f, 0.0f}, 0.5f, 12), add_material(scene, glass));
+    look_at(scene, {0.5f, 1.5f, 4.5f}, {0.0f, 0.3f, 0.0f});
+    ProblemList problems;
+    add_studio(scene, problems);
+    return scene;
+}
+
+class Studio : public testing::TestWithParam<const char*> {};
+
+TEST_P(Studio, IntegratorsAgree) {
+    constexpr int kIntegrators = 3;
+    const World world = compile(balls_in_studio());
+    AgreementCase studio{.name = "studio", .make = {}, .lengths = {.max_depth = 6}};
+    studio.spp = 12;
+    const ThreadPool threads;
+    const BlockAgreement result = test_agreement(
+        estimate(world, "path", studio, {.first_seed = 700}, threads),
+        estimate(world, GetParam(), studio, {.first_seed = 800}, threads),
+        {.block_size = kAgreementBlock, .significance = sidak_level(1e-3, kIntegrators), .mean_tolerance = 0.02});
+    EXPECT_TRUE(result.agree()) << result.str();
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Studio, testing::Values("naive", "bdpt", "vcm"),
+                         [](const auto& run) { return std::string(run.param); });
+
+TEST(StudioGround, ShowsTheBackdropWhereNothingShadowsIt) {
+    SceneDesc scene = balls_in_studio();
+    const ThreadPool threads;
+    AgreementCase studio{.name = "studio", .make = {}};
+    studio.spp = 64;
+    // Above the balls and beside them: the environment, the ground that fades, and the ground itself, far from shadows.
+    look_at(scene, {0.0f, 1.5f, 6.0f}, {0.0f, 1.5f, -100.0f});
+    scene.instances.erase(scene.instances.begin(), scene.instances.begin() + 3);
+    const World world = compile(scene);
+    const ImageEstimate image = estimate(world, "path", studio, {.seeds = 2}, threads);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < image.mean.pixels.size(); ++i) {
+        ASSERT_NEAR(image.mean.pixels[i], kStudioBackdrop, 0.08f) << i;
+        sum += double(image.mean.pixels[i]);
+    }
+    EXPECT_NEAR(sum / double(image.mean.pixels.size()), double(kStudioBackdrop), 0.002);
+}
+
+// ---- Shadow catchers.
+
+constexpr float kGroundAlbedo = 0.5f;
+constexpr int kCatcherSide = 24;  ///< pixels
+
+/// A ball over a ground, under a lamp and a sky.
+SceneDesc ball_over_ground(const MaterialDesc& ground) {
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    scene.environment.color = Rgb(0.3f);
+    scene.environment.visible_to_camera = false;
+    LightDesc sun;
+    sun.type = LightType::Directional;
+    sun.intensity = 2.0f;
+    const Vec3f back = normalize(Vec3f(-1.0f, 2.0f, 0.5f));
+    const Vec3f right = normalize(cross(Vec3f(0.0f, 1.0f, 0.0f), back));
+    const Vec3f up = cross(back, right);
+    sun.to_world = Mat4f(right.x, right.y, right.z, 0, up.x, up.y, up.z, 0, back.x, back.y, back.z, 0, 0, 0, 0, 1);
+    scene.lights.push_back(sun);
+    add_object(scene, sphere({0.0f, 0.8f, 0.0f}, 0.5f, 12), add_material(scene, diffuse(Rgb(0.8f, 0.4f, 0.1f))));
+    add_object(scene, quad_facing_up({0.0f, 0.0f, 0.0f}, 20.0f), add_material(scene, ground));
+    look_at(scene, {0.0f, 3.0f, 3.0f}, {0.2f, 0.2f, 0.0f});
+    return scene;
+}
+
+struct Pixels {
+    std::vector<Rgb> colors;
+    std::vector<double> alphas;
+};
+
+Pixels render_alone(const SceneDesc& scene, const std::string& name, std::uint32_t spp) {
+    const World world = compile(scene);
+    const auto integrator = make_integrator(name, {});
+    const PixelFilter filter(FilterShape::Box);
+    const auto scratch = integrator->make_scratch();
+    const PixelRect all{0, 0, kCatcherSide, kCatcherSide};
+    const TileJob job{all, all, kCatcherSide, kCatcherSide, 0, spp, 1, SampleSequence::Sobol, &filter};
+    TileBuffer tile;
+    tile.reset(job.rect);
+    RenderCounters counters;
+    integrator->render_tile(world, job, *scratch, tile, counters);
+    Pixels pixels;
+    for (std::size_t i = 0; i < all.area(); ++i) {
+        const PixelSum& sum = tile.pixel(i);
+        const double scale = 1.0 / static_cast<double>(sum.samples);
+        pixels.colors.emplace_back(float(sum.r * scale), float(sum.g * scale), float(sum.b * scale));
+        pixels.alphas.push_back(sum.alpha * scale);
+    }
+    return pixels;
+}
+
+MaterialDesc catcher() {
+    MaterialDesc material = diffuse(Rgb(kGroundAlbedo));
+    material.catches_shadows = true;
+    return material;
+}
+
+TEST(ShadowCatcher, CompositesOverAPlateToTheGroundThatItStandsFor) {
+    const Pixels real = render_alone(ball_over_ground(diffuse(Rgb(kGroundAlbedo))), "direct", 256);
+    const Pixels caught = render_alone(ball_over_ground(catcher()), "direct", 64);
+    // The ground without the ball: a sky of 0.3 and a sun of 2 lux.
+    const float cosine = 2.0f / std::sqrt(1.0f + 4.0f + 0.25f);
+    const float plate = kGroundAlbedo * (0.3f + 2.0f * cosine * kInvPi);
+    double difference = 0.0;
+    for (std::size_t i = 0; i < real.colors.size(); ++i) {
+        const float composite = caught.colors[i].g + (1.0f - float(caught.alphas[i])) * plate;
+        EXPECT_NEAR(composite, real.colors[i].g, 0.05f * plate) << "pixel " << i;
+        difference += double(composite - real.colors[i].g);
+    }
+    EXPECT_NEAR(difference / double(real.colors.size()), 0.0, 0.002 * double(plate));
+}
+
+TEST(ShadowCatcher, HasAlphaOfTheShadowAlone) {
+    for (const char* const integrator : {"path", "naive"}) {
+        const Pixels pixels = render_alone(ball_over_ground(catcher()), integrator, 32);
+        double most = 0.0;
+        double least = 1.0;
+        std::size_t shadows = 0;
+        for (std::size_t i = 0; i < pixels.colors.size(); ++i) {
+            most = std::max(most, pixels.alphas[i]);
+            least = std::min(least, pixels.alphas[i]);
+            if (is_black(pixels.colors[i]) && pixels.alphas[i] > 0.5) ++shadows;
+        }
+        EXPECT_EQ(most, 1.0) << "on the ball";
+        EXPECT_LT(least, 0.01) << "where nothing shadows";
+        EXPECT_GT(shadows, 5u) << "in the shadow of the sun the catcher shows nothing of itself";
+    }
+}
+
+TEST(ShadowCatcher, DarkensTheEnvironmentThatTheCameraSees) {
+    SceneDesc scene = ball_over_ground(catcher());
+    scene.environment.visible_to_camera = true;
+    const Pixels pixels = render_alone(scene, "path", 32);
+    float brightest = 0.0f;
+    for (std::size_t i = 0; i < pixels.colors.size(); ++i) {
+        EXPECT_EQ(pixels.alphas[i], 1.0);
+        if (pixels.colors[i].r == pixels.colors[i].b) brightest = std::max(brightest, pixels.colors[i].r);
+    }
+    EXPECT_NEAR(brightest, 0.3f, 0.005f) << "the sky, and no ground";
+}
+
+TEST(ShadowCatcher, IsAnOrdinarySurfaceToTheRestOfTheScene) {
+    SceneDesc scene = ball_over_ground(catcher());
+    const Pixels lit = render_alone(scene, "path", 32);
+    scene.materials.at(1).override_model = DiffuseDesc{.albedo = Rgb(0.0f)};
+    const Pixels dark = render_alone(scene, "path", 32);
+    double more = 0.0;
+    for (std::size_t i = 0; i < lit.colors.size(); ++i) more += double(lit.colors[i].r - dark.colors[i].r);
+    EXPECT_GT(more, 1.0) << "the ground lights the ball from below";
+}
+
+}  // namespace
+}  // namespace etendue::test
