@@ -31,7 +31,7 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
         const std::uint32_t lamp = world.lights().at(point);
         StrategySums sums;
         if (!is_seen && lamp != kNone)
-            sums = sums_at_emitter(sample.mis, eye.from, lamp, point.triangle, direction,
+            sums = sums_at_emitter(sample.mis, eye.from, lamp, point.triangle, point.position, direction,
                                    dot(vertex.wo, point.geometric_normal), arrived);
         else if (eye.is_direct && lamp != kNone)
             sums = sums_at_seen_emitter(sample.mis, lamp, arrived);

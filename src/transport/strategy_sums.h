@@ -48,14 +48,15 @@ struct LightPointPdfs {
     return {.fewer_from_eye = sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf))};
 }
 
-/// Returns `sums_at_light` for a triangle that a ray along `direction` has met.
+/// Returns `sums_at_light` for a triangle that a ray along `direction` has met at `on_light`.
 [[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, std::uint32_t light,
-                                                  std::uint32_t triangle, const Vec3f& direction, float cos_light,
-                                                  const SubpathDensities& arrived) {
+                                                  std::uint32_t triangle, const Vec3f& on_light, const Vec3f& direction,
+                                                  float cos_light, const SubpathDensities& arrived) {
     const float pdf_area = mis.world.emitters().pdf_area(light);
-    return sums_at_light(mis, from, light,
-                         {.sampled = pdf_area * mis.world.lights().gain(light, triangle, from), .emitted = pdf_area},
-                         mis.world.emitters().pdf(light, -direction, cos_light), arrived);
+    return sums_at_light(
+        mis, from, light,
+        {.sampled = pdf_area * mis.world.lights().gain(light, triangle, on_light, from), .emitted = pdf_area},
+        mis.world.emitters().pdf(light, -direction, cos_light), arrived);
 }
 
 /// Returns the sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
@@ -93,8 +94,9 @@ template <typename AnyVertex>
     // triangle, and the direction of an environment: its densities jump from cell to cell, and both must be of the one
     // that other strategies find the direction in.
     auto for_emission = static_cast<double>(world.emitters().probability(chosen.light));
-    auto for_vertex = static_cast<double>(chosen.expected_samples *
-                                          world.lights().gain(chosen.light, light.triangle, vertex.position));
+    auto for_vertex = static_cast<double>(
+        chosen.expected_samples * world.lights().gain(chosen.light, light.triangle,
+                                                      vertex.position + light.wi * light.distance, vertex.position));
     float pdf_solid_angle = light.pdf_solid_angle;
     if (chosen.light == world.environment().light()) {
         for_emission *= static_cast<double>(world.environment().emission_pdf_solid_angle(chosen.light, light.wi));

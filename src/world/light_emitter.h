@@ -52,8 +52,8 @@ class LightEmitter {
     [[nodiscard]] float pdf(std::uint32_t light, const Vec3f& direction, float cos_light) const {
         return emission_pdf(data_.lights[light], direction, cos_light, data_.bounding_sphere());
     }
-    /// Returns the density per area, 1/m², without the choice, with which `sample` picks a point of the mesh light of
-    /// this index.
+    /// Returns the density per area, 1/m², without the choice, with which `sample` picks a point of the mesh or the
+    /// shape that is the light of this index.
     [[nodiscard]] float pdf_area(std::uint32_t light) const;
 
     /// Returns the table that chooses.

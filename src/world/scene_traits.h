@@ -11,20 +11,21 @@ class Media;
 
 /// Answers what a scene has and needs, once it is compiled, so that integrators leave out what it does not need.
 struct SceneTraits {
-    bool has_textures = false;            ///< something is textured, so that rays need cones
-    bool has_panes = false;               ///< some surface is a pane
-    bool has_transparency = false;        ///< some surface lets rays through at random, so that they need alpha keys
-    bool has_motion = false;              ///< something moves while the shutter is open, so that rays need times
-    bool film_wraps = false;              ///< the camera sees all around: its film goes on beyond its edges
-    bool has_blind_film = false;          ///< parts of the film see nothing: the t_max of rays from there is 0
-    bool clips_far = false;               ///< the camera shows no surface beyond some depth
-    bool has_lens = false;                ///< numbers for a point on the lens mean something
-    bool has_specular_surfaces = false;   ///< some surface mirrors or refracts without any roughness
-    bool has_unlit_surfaces = false;      ///< some surface shows its colour and neither scatters nor emits light
-    bool has_emitting_surfaces = false;   ///< some surface emits light
-    bool hides_surfaces = false;          ///< some surface is hidden from the camera
-    bool culls_backs = false;             ///< the eye does not see some surface from behind
-    bool has_unsampled_emitters = false;  ///< some of these move or are beyond the most triangles that are sampled
+    bool has_textures = false;           ///< something is textured, so that rays need cones
+    bool has_panes = false;              ///< some surface is a pane
+    bool has_transparency = false;       ///< some surface lets rays through at random, so that they need alpha keys
+    bool has_motion = false;             ///< something moves while the shutter is open, so that rays need times
+    bool film_wraps = false;             ///< the camera sees all around: its film goes on beyond its edges
+    bool has_blind_film = false;         ///< parts of the film see nothing: the t_max of rays from there is 0
+    bool clips_far = false;              ///< the camera shows no surface beyond some depth
+    bool has_lens = false;               ///< numbers for a point on the lens mean something
+    bool has_specular_surfaces = false;  ///< some surface mirrors or refracts without any roughness
+    bool has_unlit_surfaces = false;     ///< some surface shows its colour and neither scatters nor emits light
+    bool has_emitting_surfaces = false;  ///< some surface emits light
+    bool hides_surfaces = false;         ///< some surface is hidden from the camera
+    bool culls_backs = false;            ///< the eye does not see some surface from behind
+    /// Is set if some of these move, are uneven shapes or are beyond the most triangles that are sampled.
+    bool has_unsampled_emitters = false;
 
     bool has_bodies = false;             ///< there is something that light can be in
     bool has_scattering_bodies = false;  ///< light scatters in some bodies
@@ -34,7 +35,7 @@ struct SceneTraits {
     bool has_delta_lights = false;    ///< some light has no extent, so that no ray meets it by chance
     bool has_sampled_lights = false;  ///< samples of the BSDF do not find all light best; `LightSampler` is for these
     bool chooses_lights = false;      ///< there is more than one light for `LightSampler` to choose from
-    bool chooses_lights_by_receiver = false;  ///< the choice of a light, or of its triangle, depends on what it is for
+    bool chooses_lights_by_receiver = false;  ///< the choice of a light, or of a place on it, depends on what it is for
     bool chooses_emitters = false;            ///< there is more than one light for `LightEmitter` to choose from
     bool has_environment = false;             ///< there is light from infinitely far away in every direction
     bool environment_visible_to_camera = false;  ///< camera rays that meet nothing show the environment

@@ -47,7 +47,8 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const std::uint32_t light = world.lights().at(point);
     const float cos_light = -dot(direction, point.geometric_normal);
     if (state.index > kDirectlySeen && light != kNone)
-        sums = sums_at_emitter(parts_.job.mis(), state.from, light, point.triangle, direction, cos_light, arrived);
+        sums = sums_at_emitter(parts_.job.mis(), state.from, light, point.triangle, point.position, direction,
+                               cos_light, arrived);
     else if (state.is_direct && light != kNone)
         sums = sums_at_seen_emitter(parts_.job.mis(), light, arrived);
     add(state, emitted, sums,
