@@ -194,8 +194,8 @@ class GivenPath {
         const SubpathDensities arrived =
             departing.arrive(job_.raised, static_cast<double>(length_squared(path_.end.position - from)),
                              std::abs(static_cast<double>(path_.end.cos_light)));
-        return sums_at_emitter(job_.mis(), from, path_.end.light, path_.end.triangle, direction, path_.end.cos_light,
-                               arrived)
+        return sums_at_emitter(job_.mis(), from, path_.end.light, path_.end.triangle, path_.end.position, direction,
+                               path_.end.cos_light, arrived)
             .weight();
     }
     [[nodiscard]] double weight_of_light_sample() const {

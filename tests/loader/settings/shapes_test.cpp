@@ -32,8 +32,9 @@ const PrimitiveDesc& primitive_of(const SceneDesc& scene, std::size_t instance) 
 }
 
 std::string errors_of(const std::string& shapes) {
+    const LoadedScene loaded = load_shapes(shapes);
     std::string text;
-    for (const Problem& problem : load_shapes(shapes).problems.all())
+    for (const Problem& problem : loaded.problems.all())
         if (problem.severity == Severity::Error) text += problem.str() + "\n";
     return text;
 }
