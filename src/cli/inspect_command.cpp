@@ -43,6 +43,7 @@ struct Inspection {
     Vec3d origin{0.0};
     std::size_t triangles = 0;
     std::size_t vertices = 0;
+    std::size_t shapes = 0;
     ProblemList problems;
     std::optional<ImageOutline> outline;   ///< if the settings can be followed
     std::optional<WorldStatistics> world;  ///< if it could be compiled
@@ -109,7 +110,8 @@ Inspection inspect(const std::string& path, const SettingsOverrides& overrides) 
     for (const MeshDesc& mesh : scene.meshes)
         for (const PrimitiveDesc& primitive : mesh.primitives) {
             result.triangles += primitive.triangles.size();
-            result.vertices += primitive.positions.size();
+            result.vertices += primitive.shape ? 0 : primitive.positions.size();
+            result.shapes += primitive.shape ? 1 : 0;
         }
     if (result.problems.has_errors()) return result;
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
@@ -153,7 +155,8 @@ std::string to_text(const Inspection& i) {
         else
             fmt::format_to(out, "bounds: {} to {} metres\n", place_text(i.bounds.min, i.origin),
                            place_text(i.bounds.max, i.origin));
-        fmt::format_to(out, "triangles: {}, vertices: {}\n", i.triangles, i.vertices);
+        fmt::format_to(out, "triangles: {}, vertices: {}", i.triangles, i.vertices);
+        fmt::format_to(out, "{}\n", i.shapes == 0 ? std::string() : fmt::format(", shapes: {}", i.shapes));
     }
     if (i.world)
         fmt::format_to(
@@ -190,6 +193,7 @@ nlohmann::json to_json(const Inspection& i) {
                          {"camera", i.outline->camera}};
     json["triangles"] = i.triangles;
     json["vertices"] = i.vertices;
+    json["shapes"] = i.shapes;
     json["bounds"] = nullptr;
     json["compiled"] = nullptr;
     json["problems"] = nlohmann::json::array();

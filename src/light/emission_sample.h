@@ -16,7 +16,7 @@ struct SceneSphere {
 
 /// The random numbers of a ray, each in [0, 1)².
 struct EmissionNumbers {
-    Vec2f triangle;  ///< of a mesh light, which triangle
+    Vec2f triangle;  ///< of a mesh light, which triangle; of a shape which face
     Vec2f position;
     Vec2f direction;
 };
@@ -34,8 +34,8 @@ struct EmissionSample {
     /// 1 at a point.
     float pdf_position_area = 1.0f;
     float pdf_direction_solid_angle = 1.0f;  ///< 1/sr; 1 for directional lights
-    std::uint32_t triangle = 0;              ///< mesh lights: which triangle was chosen
-    Vec2f barycentric{0.0f, 0.0f};           ///< mesh lights: of the second and third vertex
+    std::uint32_t triangle = 0;              ///< mesh lights: which triangle was chosen; of a shape the face
+    Vec2f barycentric{0.0f, 0.0f};           ///< mesh lights: of the second and third vertex; of a shape the place
 
     /// Where a ray starts that leaves along `towards`, which may be the other side of the surface.
     [[nodiscard]] Vec3f origin(const Vec3f& towards) const {

@@ -6,6 +6,7 @@ namespace etendue {
 
 LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u) {
     if (const MeshLight* mesh = std::get_if<MeshLight>(&light)) return mesh->sample(point, u_triangle, u);
+    if (const ShapeLight* shape = std::get_if<ShapeLight>(&light)) return shape->sample(point, u_triangle, u);
     return std::visit(
         [&](const auto& l) {
             if constexpr (requires { l.sample(point, u); })

@@ -9,6 +9,7 @@
 #include "light/mesh_light.h"
 #include "light/profile_light.h"
 #include "light/punctual_light.h"
+#include "light/shape_light.h"
 #include "light/sun_light.h"
 #include "sampling/alias_table.h"
 
@@ -20,10 +21,11 @@
 
 namespace etendue {
 
-using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight, SunLight, MeshLight,
+using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight, SunLight, MeshLight, ShapeLight,
                            ConstantEnvironment, ImageEnvironment>;
 
-/// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
+/// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle, of a shape the
+/// face. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
 /// Samples light at `point` as `sample_light` does, but of an environment only what
 /// `compensated_pdf_solid_angle_from_afar` says: the samples of the BSDF, combined with these by multiple importance

@@ -19,9 +19,9 @@ struct LightSample {
     Rgb radiance;
     float pdf_solid_angle = 0.0f;  ///< of wi, without the choice of the light; not meaningful if `is_delta`
     bool is_delta = false;
-    float cos_light = 1.0f;         ///< mesh lights: between -wi and the normal of the front
-    std::uint32_t triangle = 0;     ///< mesh lights: which triangle was chosen
-    Vec2f barycentric{0.0f, 0.0f};  ///< mesh lights: of the second and third vertex
+    float cos_light = 1.0f;         ///< mesh and shape lights: between -wi and the normal of the front
+    std::uint32_t triangle = 0;     ///< mesh lights: which triangle was chosen; of a shape the face (shape/shape.h)
+    Vec2f barycentric{0.0f, 0.0f};  ///< mesh lights: of the second and third vertex; of a shape the place
 };
 
 }  // namespace etendue

@@ -1,8 +1,8 @@
 #include "light/mesh_light.h"
 
-#include "core/frame.h"
 #include "core/position_error.h"
 #include "light/opposite_triangles.h"
+#include "light/surface_departure.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
@@ -89,22 +89,10 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
     const AliasTable::Choice choice = by_area_.sample(u.triangle);
     const Face& face = faces_[choice.index];
     const Vec2f b = square_to_triangle(u.position);
-    Vec3f normal = face.normal;
-    Vec2f u_direction = u.direction;
-    if (two_sided_) {
-        const bool back = u_direction.x >= 0.5f;
-        u_direction.x = 2.0f * u_direction.x - (back ? 1.0f : 0.0f);
-        if (back) normal = -normal;
-    }
-    const Vec3f local = beam_.sample(u_direction);
     EmissionSample sample;
-    sample.direction = Frame::from_normal(normal).to_world(local);
+    leave_surface(face.normal, face.clearance, u.direction, two_sided_, beam_, sample);
     sample.position = face.p0 + face.edge1 * b.x + face.edge2 * b.y;
-    sample.offset = normal * face.clearance;
-    sample.cos_theta = local.z;
     sample.pdf_position_area = 1.0f / area_;
-    sample.pdf_direction_solid_angle =
-        cosine_hemisphere_pdf_solid_angle(local) * (two_sided_ ? 0.5f : beam_.density_factor(local.z));
     if (sample.pdf_direction_solid_angle > 0.0f) sample.radiance = radiance_;
     sample.triangle = choice.index;
     sample.barycentric = b;
@@ -117,12 +105,8 @@ LightCone<float> MeshLight::cone(std::uint32_t triangle) const {
 
 void MeshLight::turn(EmissionSample& sample, const Vec3f& direction) const {
     const Face& face = faces_[sample.triangle];
-    const float cosine = dot(face.normal, direction);
-    const bool is_back = two_sided_ && cosine < 0.0f;
-    sample.direction = direction;
-    sample.offset = face.normal * (is_back ? -face.clearance : face.clearance);
-    sample.cos_theta = is_back ? -cosine : cosine;
-    sample.pdf_direction_solid_angle = emission_pdf(direction, cosine, {});
+    turn_on_surface(face.normal, face.clearance, two_sided_, direction, sample);
+    sample.pdf_direction_solid_angle = emission_pdf(direction, dot(face.normal, direction), {});
     sample.radiance = sample.pdf_direction_solid_angle > 0.0f ? radiance_ : Rgb();
 }
 

@@ -200,6 +200,11 @@ void dump_geometry(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         fmt::format_to(out, "mesh {} {}\n", i, quoted(scene.meshes[i].name));
         for (const PrimitiveDesc& p : scene.meshes[i].primitives) {
+            if (p.shape) {
+                fmt::format_to(out, "  {} with half its size {}, material {}\n", shape_name(p.shape->kind),
+                               text(p.shape->half_size), p.material.index);
+                continue;
+            }
             fmt::format_to(out, "  {} triangles, {} vertices, material {}{}{}{}{}{}\n", p.triangles.size(),
                            p.positions.size(), p.material.index, p.tangents.empty() ? "" : ", tangents",
                            p.uv0.empty() ? "" : ", uv0", p.uv1.empty() ? "" : ", uv1",

@@ -1,14 +1,16 @@
-// Triangle meshes as plain arrays.
+// Triangle meshes as plain arrays, and exact shapes.
 #pragma once
 
 #include "core/error.h"
 #include "core/vec.h"
 #include "scene/handle.h"
 #include "scene/material_desc.h"
+#include "shape/shape_kind.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +28,21 @@ struct VertexStep {
     std::vector<Vec3f> normals;  ///< empty where the primitive has none
 };
 
-/// Triangles with one material. Attribute arrays are empty or as long as `positions`. Strips and fans are already
-/// unrolled into `triangles`, whose indices are all below positions.size().
+/// Describes an exact shape around the origin of its mesh: an ellipsoid, an ellipse, a rectangle or an elliptic
+/// cylinder.
+struct ShapeDesc {
+    ShapeKind kind = ShapeKind::Sphere;
+    Vec3f half_size{1.0f};  ///< metres along each axis, > 0; z is not looked at if it is flat
+
+    /// Returns the corners of its box.
+    [[nodiscard]] std::vector<Vec3f> corners() const;
+};
+
+/// Triangles with one material, or a shape in their place. Attribute arrays are empty or as long as `positions`. Strips
+/// and fans are already unrolled into `triangles`, whose indices are all below positions.size().
 struct PrimitiveDesc {
+    /// Takes the place of triangles: `positions` are the corners of its box, and all other arrays are empty.
+    std::optional<ShapeDesc> shape;
     std::vector<Vec3f> positions;  ///< metres, mesh space, finite
     std::vector<Vec3f> normals;    ///< unit length; empty if every triangle is flat
     std::vector<Vec4f> tangents;   ///< xyz unit length, w = ±1 is the bitangent's sign; empty if the file has none

@@ -56,6 +56,15 @@ void validate_vertex_motion(const PrimitiveDesc& p, ProblemList& problems) {
     }
 }
 
+void validate_shape(const PrimitiveDesc& p, ProblemList& problems) {
+    const Vec3f& half = p.shape->half_size;
+    if (!is_finite(half) || !(half.x > 0.0f) || !(half.y > 0.0f) || !(is_flat(p.shape->kind) || half.z > 0.0f))
+        problems.error(p.location, fmt::format("the size of a {} is not above 0", shape_name(p.shape->kind)));
+    if (!p.triangles.empty() || !p.normals.empty() || !p.tangents.empty() || !p.uv0.empty() || !p.uv1.empty() ||
+        !p.colors.empty() || !p.motion.empty() || p.positions != p.shape->corners())
+        problems.error(p.location, "a shape has other vertices than the corners of its box");
+}
+
 void validate_primitive(const PrimitiveDesc& p, const SceneDesc& scene, ProblemList& problems) {
     const std::size_t n = p.positions.size();
     const auto finite = [](const Vec3f& v) { return is_finite(v); };
@@ -69,7 +78,10 @@ void validate_primitive(const PrimitiveDesc& p, const SceneDesc& scene, ProblemL
                        problems);
 
     validate_vertex_motion(p, problems);
-    if (p.triangles.empty()) problems.error(p.location, "a primitive without triangles");
+    if (p.shape)
+        validate_shape(p, problems);
+    else if (p.triangles.empty())
+        problems.error(p.location, "a primitive without triangles");
     const auto in_range = [n](const std::array<std::uint32_t, 3>& t) { return t[0] < n && t[1] < n && t[2] < n; };
     const auto bad = std::ranges::find_if_not(p.triangles, in_range);
     if (bad != p.triangles.end()) {

@@ -52,7 +52,7 @@ struct LightPointPdfs {
 [[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, const EmittedRay& emitted,
                                                   const SubpathDensities& arrived) {
     const float pdf_area = mis.world.emitters().pdf_area(emitted.light);
-    const float gain = mis.world.lights().gain(emitted.light, emitted.triangle, from);
+    const float gain = mis.world.lights().gain(emitted.light, emitted.triangle, emitted.point, from);
     return sums_at_light(mis, from, emitted.light, {.sampled = pdf_area * gain, .emitted = pdf_area},
                          mis.world.emitters().pdf(emitted, mis.aims), arrived);
 }
@@ -98,8 +98,8 @@ template <typename AnyVertex>
     // triangle, and the direction of an environment: its densities jump from cell to cell, and both must be of the one
     // that other strategies find the direction in.
     auto for_emission = static_cast<double>(world.emitters().probability(chosen.light));
-    auto for_vertex = static_cast<double>(chosen.expected_samples *
-                                          world.lights().gain(chosen.light, light.triangle, vertex.position));
+    auto for_vertex = static_cast<double>(
+        chosen.expected_samples * world.lights().gain(chosen.light, light.triangle, emitted.point, vertex.position));
     float pdf_solid_angle = light.pdf_solid_angle;
     if (chosen.light == world.environment().light()) {
         for_emission *= static_cast<double>(world.environment().emission_pdf_solid_angle(chosen.light, light.wi));

@@ -28,6 +28,8 @@ void require_still_and_small(const WorldData& data) {
     if (has_motion) refuse("something moves while the shutter is open");
     if (std::ranges::any_of(data.materials, &Material::culls_back))
         refuse("back faces are invisible (--cull-backfaces)");
+    if (std::ranges::any_of(data.geometries, [](const Geometry& geometry) { return geometry.shape.has_value(); }))
+        refuse("it has shapes (\"shapes\" in render.json), which are no triangles");
     std::size_t triangles = 0;
     for (const Instance& instance : data.instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)

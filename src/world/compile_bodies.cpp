@@ -76,8 +76,14 @@ class SurfaceSums {
         : origin_(in_double(bounds.min)), cell_(1e-4 * static_cast<double>(length(bounds.size()))) {}
 
     void add(const Geometry& geometry) { parts_.push_back(&geometry); }
+    /// Returns whether a flat shape is among the parts, which encloses nothing.
+    [[nodiscard]] bool has_flat_shape() const {
+        return std::ranges::any_of(parts_,
+                                   [](const Geometry* part) { return part->shape && is_flat(part->shape->kind()); });
+    }
     /// True if every edge is passed as often in one direction as in the other, but for a chance of 2⁻⁶⁴.
     [[nodiscard]] bool is_closed() const {
+        if (has_flat_shape()) return false;
         for (std::size_t grid = 0; grid < kGrids; ++grid)
             if (edge_sum(grid) == 0) return true;
         return false;
@@ -85,9 +91,11 @@ class SurfaceSums {
     /// Volume of a closed surface in its own space; it is negative if the fronts are inside.
     [[nodiscard]] double volume() const {
         double volume = 0.0;
-        for (const Geometry* part : parts_)
+        for (const Geometry* part : parts_) {
+            if (part->shape) volume += part->shape->volume();
             for (const auto& [a, b, c] : part->triangles)
                 volume += corner(*part, a).dot(corner(*part, b).cross(corner(*part, c))) / 6.0;
+        }
         return volume;
     }
 
@@ -153,14 +161,17 @@ void check_surfaces(const SceneDesc& scene, const WorldData& data, std::span<con
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
             const std::uint32_t filling = data.materials[geometry.material].filling;
-            if (filling != kNone && !geometry.triangles.empty())
-                sums.try_emplace(filling, bounds).first->second.add(geometry);
+            if (filling != kNone && !geometry.is_empty()) sums.try_emplace(filling, bounds).first->second.add(geometry);
         }
         const InstanceDesc& desc = scene.instances[i];
         for (const auto& [filling, surface] : sums) {
             if (!checked.insert({desc.mesh.index, filling}).second) continue;
             const std::string what = desc.name.empty() ? std::string("a body") : "the body '" + desc.name + "'";
-            if (!surface.is_closed())
+            if (surface.has_flat_shape())
+                problems.warning(desc.location, what +
+                                                    " is flat: disks and rectangles enclose nothing. Take a cylinder, "
+                                                    "or leave its material's thickness out to make it a thin sheet");
+            else if (!surface.is_closed())
                 problems.warning(desc.location,
                                  what +
                                      " is not closed: its mesh has edges of one triangle only, or triangles whose "
@@ -245,7 +256,7 @@ void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& proble
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const std::uint32_t geometry = instance.first_geometry + g;
             const std::uint32_t filling = filling_of(geometry);
-            if (filling == kNone || data.geometries[geometry].triangles.empty()) continue;
+            if (filling == kNone || data.geometries[geometry].is_empty()) continue;
             const auto [entry, is_new] =
                 of_instance.try_emplace(filling, static_cast<std::uint32_t>(candidates.size()));
             if (is_new) candidates.push_back({data.fillings[filling].priority, {}, filling});

@@ -152,6 +152,7 @@ std::vector<Vec3f> planes_through(const WorldData& data, const Vec3f& point) {
         8.0f * clearance({1.0f, 1.0f, 1.0f}, position_error(max_components(extent, abs_components(point))));
     std::vector<Vec3f> planes;
     data.bvh->for_each_near(point, radius, [&](std::uint32_t instance, std::uint32_t geometry, std::uint32_t t) {
+        if (data.geometries[geometry].shape) return true;
         const PlacedTriangle triangle = place(data, instance, geometry, t);
         if (triangle.is_degenerate()) return true;
         const Vec3f normal(triangle.normal);

@@ -24,6 +24,11 @@ Geometry take_geometry(PrimitiveDesc& primitive) {
     geometry.motion = std::move(primitive.motion);
     for (VertexStep& step : geometry.motion) step.positions.reserve(step.positions.size() + 1);
     geometry.material = static_cast<std::uint32_t>(primitive.material.index);
+    if (primitive.shape) {
+        Mat4f size;
+        size.setScale(primitive.shape->half_size);
+        geometry.shape = ExactShape(primitive.shape->kind, size);
+    }
     return geometry;
 }
 
@@ -102,6 +107,13 @@ Vec3f normalized_or_zero(const Vec3f& v) {
 /// Moves a mesh to world space. A mirroring transform turns the winding around, which is put right here, so that the
 /// front stays the front (glTF 2.0, section 3.7.4).
 void bake(Geometry& geometry, const Mat4f& to_world) {
+    if (geometry.shape) {
+        geometry.shape = geometry.shape->placed(to_world);
+        const Bounds bounds = geometry.shape->bounds();
+        geometry.positions.clear();
+        for (const Vec3f& corner : {bounds.min, bounds.max}) geometry.positions.push_back(corner);
+        return;
+    }
     const Mat4f to_local = to_world.inverse();
     const bool mirrored = mirrors(to_world);
     const auto bake_vertices = [&](std::vector<Vec3f>& positions, std::vector<Vec3f>& normals) {
@@ -144,7 +156,7 @@ std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::ui
         for (const PrimitiveDesc& primitive : scene.meshes[m].primitives) {
             triangles += primitive.triangles.size();
             can_be_copied = can_be_copied && primitive.motion.empty() &&
-                            primitive.positions.size() <= 3 * primitive.triangles.size();
+                            (primitive.shape || primitive.positions.size() <= 3 * primitive.triangles.size());
         }
         if (can_be_copied) candidates.push_back({triangles * (uses[m] - 1), m});
     }

@@ -77,13 +77,14 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
     std::size_t triangle_count = 0;
     std::size_t skipped = 0;
     std::size_t moving = 0;
+    std::size_t uneven = 0;
     for (std::size_t i = 0; i < data.instances.size(); ++i) {
         const Instance& instance = data.instances[i];
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const std::uint32_t index = instance.first_geometry + g;
             const Geometry& geometry = data.geometries[index];
             const Material& material = data.materials[geometry.material];
-            if (!material.emits || geometry.triangles.empty()) continue;
+            if (!material.emits || geometry.is_empty()) continue;
             if (instance.motion != kNone || !geometry.motion.empty()) {
                 ++moving;
                 continue;
@@ -99,16 +100,31 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
                                  !material.has_coat && !shares_place && material.beam.is_matte();
             // Rays from it and to it pass what touches it.
             const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
-            MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
-                            material.emits_both_sides, instance.mirrors, uniform,
-                            max_components(mesh_position_error(geometry, instance), Vec3f(reach)), material.beam);
-            if (!(light.area() > 0.0f)) continue;
-            data.light_of_slot[slot] = static_cast<std::uint32_t>(data.lights.size());
-            data.lights.emplace_back(std::move(light));
+            const Vec3f error = max_components(mesh_position_error(geometry, instance), Vec3f(reach));
+            if (geometry.shape) {
+                const ExactShape shape = geometry.shape->placed(instance.to_world);
+                if (!shape.is_round()) {
+                    ++uneven;
+                    continue;
+                }
+                data.light_of_slot[slot] = static_cast<std::uint32_t>(data.lights.size());
+                data.lights.emplace_back(ShapeLight(shape, material.emission, mean_emission(data, material),
+                                                    material.emits_both_sides, uniform, error, material.beam));
+            } else {
+                MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
+                                material.emits_both_sides, instance.mirrors, uniform, error, material.beam);
+                if (!(light.area() > 0.0f)) continue;
+                data.light_of_slot[slot] = static_cast<std::uint32_t>(data.lights.size());
+                data.lights.emplace_back(std::move(light));
+            }
             data.emitter_of_light.push_back({.instance = static_cast<std::uint32_t>(i), .geometry = index});
         }
     }
-    data.has_unsampled_emitters = moving > 0 || skipped > 0;
+    data.has_unsampled_emitters = moving > 0 || skipped > 0 || uneven > 0;
+    if (uneven > 0)
+        problems.note({}, std::to_string(uneven) +
+                              " emissive ellipsoids or elliptic cylinders will be found by chance only: small ones "
+                              "give noise. Scale them evenly to have them sampled");
     if (moving > 0)
         problems.note({}, std::to_string(moving) +
                               " emissive surfaces move while the shutter is open and will be found "

@@ -25,8 +25,10 @@ void add_footprints(const Geometry& geometry, const Vec3f& edge1, const Vec3f& e
 
 float mean_curvature(const WorldData& data, const Hit& hit) {
     const Geometry& geometry = data.geometries[hit.geometry];
-    if (geometry.normals.empty()) return 0.0f;
     const Instance& instance = data.instances[hit.instance];
+    if (geometry.shape)
+        return geometry.shape->mean_curvature(shape_place(hit.triangle, {hit.u, hit.v}), instance.to_world);
+    if (geometry.normals.empty()) return 0.0f;
     const auto& triangle = geometry.triangles[hit.triangle];
     Vec3f p[3];
     Vec3f n[3];

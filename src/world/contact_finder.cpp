@@ -230,7 +230,8 @@ class TouchFinder {
     [[nodiscard]] Bounds bounds_of(const Instance& instance, std::uint32_t geometry_index,
                                    std::uint32_t triangle) const {
         const Geometry& geometry = data_.geometries[geometry_index];
-        Bounds bounds;
+        Bounds bounds;  // empty of shapes, whose contacts are not looked for
+        if (geometry.shape) return bounds;
         for (const std::uint32_t vertex : geometry.triangles[triangle])
             bounds.extend(placed(instance, geometry.positions[vertex]));
         return bounds;

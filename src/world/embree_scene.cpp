@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "world/embree_query.h"
+#include "world/embree_shape.h"
 #include "world/stochastic_opacity.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -74,15 +76,19 @@ void pass_panes(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-/// Sets the filter functions of a geometry with these properties, if one is true at least.
+/// Holds the filter functions of a geometry; null where it needs none.
+struct FilterFunctions {
+    RTCFilterFunctionN intersect = nullptr;
+    RTCFilterFunctionN occluded = nullptr;
+};
+
+/// Returns the filter functions of a geometry with these properties.
 template <bool Hidden, bool Culled, bool ByOpacity>
-void set_let_through(RTCGeometry mesh, bool passes_shadows) {
-    constexpr bool kAnyRay = Hidden || Culled || ByOpacity;
-    if (kAnyRay) rtcSetGeometryIntersectFilterFunction(mesh, let_pass<Hidden, Culled, ByOpacity>);
-    if (passes_shadows)
-        rtcSetGeometryOccludedFilterFunction(mesh, pass_panes<Hidden, Culled, ByOpacity>);
-    else if (kAnyRay)
-        rtcSetGeometryOccludedFilterFunction(mesh, let_pass<Hidden, Culled, ByOpacity>);
+FilterFunctions let_through(bool passes_shadows) {
+    FilterFunctions functions;
+    if (Hidden || Culled || ByOpacity) functions.intersect = functions.occluded = let_pass<Hidden, Culled, ByOpacity>;
+    if (passes_shadows) functions.occluded = pass_panes<Hidden, Culled, ByOpacity>;
+    return functions;
 }
 
 /// Calls `use` with `value` as a constant.
@@ -145,6 +151,7 @@ struct GeometryMaker {
     std::span<const HitFilter> filters;  ///< of the geometries
     bool collects;                       ///< for `EmbreeScene::collect`
     std::deque<std::vector<std::array<std::uint32_t, 3>>>& collected_indices;
+    std::vector<std::unique_ptr<const EmbreeShape>>& shapes;
 
     /// Returns an empty scene.
     [[nodiscard]] RTCScene new_scene() const {
@@ -154,9 +161,10 @@ struct GeometryMaker {
         return scene;
     }
 
-    /// Adds the triangles of geometry `index` to `scene`, or those that `collected` names, if it is not null.
-    void add_triangles(RTCScene scene, std::uint32_t index, const CollectedSlot* collected) const {
+    /// Adds geometry `index` to `scene`, or those of its triangles that `collected` names, if it is not null.
+    void add_geometry(RTCScene scene, std::uint32_t index, const CollectedSlot* collected) const {
         const Geometry& geometry = geometries[index];
+        if (geometry.shape) return add_shape(scene, *geometry.shape, filters[index]);
         RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         const auto set_vertices = [&](unsigned int slot, const std::vector<Vec3f>& positions) {
             rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, slot, RTC_FORMAT_FLOAT3, positions.data(), 0,
@@ -177,32 +185,46 @@ struct GeometryMaker {
         }
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles->data(), 0,
                                    sizeof(std::array<std::uint32_t, 3>), triangles->size());
-        set_filters(mesh, filters[index]);
-        rtcCommitGeometry(mesh);
-        rtcAttachGeometry(scene, mesh);
-        rtcReleaseGeometry(mesh);
+        const FilterFunctions functions = filter_functions(filters[index]);
+        if (functions.intersect != nullptr) rtcSetGeometryIntersectFilterFunction(mesh, functions.intersect);
+        if (functions.occluded != nullptr) rtcSetGeometryOccludedFilterFunction(mesh, functions.occluded);
+        attach(scene, mesh);
     }
 
-    /// Has Embree ask about hits of `mesh` as `filter` says.
-    void set_filters(RTCGeometry mesh, const HitFilter& filter) const {
-        if (collects) {
-            rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_hits<true> : collect_hits<false>);
-            return;
-        }
+    void add_shape(RTCScene scene, const ExactShape& shape, const HitFilter& filter) const {
+        const FilterFunctions functions = filter_functions(filter);
+        shapes.push_back(
+            std::make_unique<const EmbreeShape>(EmbreeShape{shape, functions.intersect, functions.occluded}));
+        RTCGeometry placed = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        set_shape(placed, *shapes.back());
+        attach(scene, placed);
+    }
+
+    static void attach(RTCScene scene, RTCGeometry geometry) {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+
+    /// Returns what Embree has to ask about hits as `filter` says.
+    [[nodiscard]] FilterFunctions filter_functions(const HitFilter& filter) const {
+        if (collects) return {filter.by_opacity ? collect_hits<true> : collect_hits<false>, nullptr};
+        FilterFunctions functions;
         with_constant(filter.is_hidden, [&](auto hidden) {
             with_constant(filter.culls_back, [&](auto culled) {
                 with_constant(filter.by_opacity, [&](auto by_opacity) {
-                    set_let_through<hidden(), culled(), by_opacity()>(mesh, filter.passes_shadows);
+                    functions = let_through<hidden(), culled(), by_opacity()>(filter.passes_shadows);
                 });
             });
         });
+        return functions;
     }
 
     /// Returns a scene of the mesh that `instance` shares with others.
     [[nodiscard]] RTCScene build_shared_scene(const Instance& instance) const {
         RTCScene scene = new_scene();
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
-            add_triangles(scene, instance.first_geometry + g, nullptr);
+            add_geometry(scene, instance.first_geometry + g, nullptr);
         rtcCommitScene(scene);
         return scene;
     }
@@ -219,9 +241,7 @@ struct GeometryMaker {
         for (std::size_t i = 0; i < steps.size(); ++i)
             rtcSetGeometryTransform(placed, static_cast<unsigned int>(i), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
                                     steps[i].getValue());
-        rtcCommitGeometry(placed);
-        rtcAttachGeometry(scene, placed);
-        rtcReleaseGeometry(placed);
+        attach(scene, placed);
     }
 };
 
@@ -243,7 +263,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
         device_ = rtcNewDevice("start_threads=0,set_affinity=0");
         if (!device_) throw IoError("Embree could not be started");
         rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory);
-        const GeometryMaker maker{device_, geometries, filters, collects_, collected_indices_};
+        const GeometryMaker maker{device_, geometries, filters, collects_, collected_indices_, shapes_};
         top_ = maker.new_scene();
         std::unordered_map<std::uint32_t, RTCScene> scene_of_mesh;
         for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -260,7 +280,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
                     if (!is_taken(g)) continue;
                     const std::uint32_t geometry = instance.first_geometry + g;
                     const CollectedSlot* slot = collects_ ? &collected_[instance.first_light_slot + g] : nullptr;
-                    maker.add_triangles(top_, geometry, slot);
+                    maker.add_geometry(top_, geometry, slot);
                     entries_.add({index, geometry}, slot);
                 }
                 continue;

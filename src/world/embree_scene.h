@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct HitFilter {
 
 /// Opacity of a triangle at a point, [0, 1].
 using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric);
+
+struct EmbreeShape;
 
 /// Owns the Embree device and scenes. Baked geometry sits in the top-level scene; a shared mesh has a scene of its own,
 /// built once, and instances in the top-level one.
@@ -114,6 +117,7 @@ class EmbreeScene {
     bool collects_ = false;
     std::vector<CollectedSlot> collected_;
     std::deque<std::vector<std::array<std::uint32_t, 3>>> collected_indices_;
+    std::vector<std::unique_ptr<const EmbreeShape>> shapes_;  ///< to which Embree points
     bool has_panes_ = false;
 };
 

@@ -1,11 +1,13 @@
-// Triangles as the World keeps them: the arrays that Embree reads and that shading interpolates.
+// Triangles and shapes as the World keeps them: what Embree reads and shading interpolates.
 #pragma once
 
 #include "core/vec.h"
 #include "scene/mesh_desc.h"
+#include "shape/shape.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace etendue {
@@ -23,6 +25,10 @@ struct Geometry {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<VertexStep> motion;  ///< empty, or the vertices at equally spaced times of the shutter
     std::uint32_t material = 0;
+    std::optional<ExactShape> shape;  ///< in place of triangles; `positions` are then corners of a box around it
+
+    /// Returns whether there is no surface.
+    [[nodiscard]] bool is_empty() const { return triangles.empty() && !shape; }
 };
 
 inline constexpr std::uint32_t kNone = 0xffffffffu;

@@ -10,9 +10,9 @@ namespace etendue {
 
 /// Holds the nearest surface along a ray, in 28 bytes.
 struct Hit {
-    float t = 0.0f;            ///< metres along the ray
-    float u = 0.0f, v = 0.0f;  ///< barycentric coordinates of the second and third vertex
-    std::uint32_t triangle = 0;
+    float t = 0.0f;              ///< metres along the ray
+    float u = 0.0f, v = 0.0f;    ///< barycentric coordinates of the second and third vertex, or the place on a shape
+    std::uint32_t triangle = 0;  ///< or the face of a shape (shape/shape.h)
     std::uint32_t geometry : 31 = 0;
     std::uint32_t in_contact : 1 = 0;  ///< there are other surfaces in this place (world/contacts.h)
     std::uint32_t instance = kNone;    ///< kNone if nothing was hit

@@ -19,6 +19,8 @@ AimSphere sphere_around(const Geometry& geometry, const Instance& instance) {
     for (const Vec3f& position : geometry.positions) bounds.extend(position);
     float radius = 0.0f;
     for (const Vec3f& position : geometry.positions) radius = std::max(radius, length(position - bounds.center()));
+    const bool is_ball = geometry.shape && geometry.shape->kind() == ShapeKind::Sphere && geometry.shape->is_round();
+    if (is_ball) radius = 0.5f * bounds.size().x;
     const Mat4f& m = instance.to_world;
     const auto scale = [&](const Vec3f& axis) { return length(transform_vector(m, axis)); };
     return {transform_point(m, bounds.center()),
@@ -93,14 +95,22 @@ Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool
 }
 
 SurfaceEmission LightEmitter::surface_emission(const Emission& emission, const Vec3f& direction) const {
-    const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[emission.light]);
-    if (mesh == nullptr) return {};
+    const Light& light = data_.lights[emission.light];
+    const MeshLight* mesh = std::get_if<MeshLight>(&light);
+    const ShapeLight* shape = std::get_if<ShapeLight>(&light);
+    if (mesh == nullptr && shape == nullptr) return {};
     const Geometry& geometry = data_.geometries[data_.emitter_of_light[emission.light].geometry];
     if (!data_.materials[geometry.material].visible_to_camera) return {};
     const EmissionSample& sample = emission.sample;
-    const LightTriangle& t = mesh->triangle(sample.triangle);
+    Vec3f normal(0.0f);
+    if (mesh != nullptr) {
+        const LightTriangle& t = mesh->triangle(sample.triangle);
+        normal = triangle_normal(t.edge1, t.edge2);
+    } else {
+        normal = shape->shape().point(shape_place(sample.triangle, sample.barycentric)).normal;
+    }
     return {mesh_emission(data_, materials_, emission.light, sample.triangle, sample.barycentric, direction),
-            abs_dot(triangle_normal(t.edge1, t.edge2), direction)};
+            abs_dot(normal, direction)};
 }
 
 Interior LightEmitter::interior(const Emission& emission) const {
@@ -118,7 +128,8 @@ float LightEmitter::pdf(const EmittedRay& ray, bool aims) const {
 }
 
 float LightEmitter::pdf_area(std::uint32_t light) const {
-    return 1.0f / std::get<MeshLight>(data_.lights[light]).area();
+    const ShapeLight* shape = std::get_if<ShapeLight>(&data_.lights[light]);
+    return 1.0f / (shape != nullptr ? shape->area() : std::get<MeshLight>(data_.lights[light]).area());
 }
 
 }  // namespace etendue

@@ -38,14 +38,17 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
     const std::uint32_t light = at(point);
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
-    return std::get<MeshLight>(data_.lights[light])
-               .pdf_solid_angle(point.triangle, from.position, distance, cos_light) *
-           probability(from, light);
+    const ShapeLight* shape = std::get_if<ShapeLight>(&data_.lights[light]);
+    const float pdf = shape != nullptr ? shape->pdf_solid_angle(from.position, distance, cos_light)
+                                       : std::get<MeshLight>(data_.lights[light])
+                                             .pdf_solid_angle(point.triangle, from.position, distance, cos_light);
+    return pdf * probability(from, light);
 }
 
-float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& point) const {
-    const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light]);
-    return mesh != nullptr ? mesh->gain(triangle, point) : 1.0f;
+float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {
+    if (const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light])) return mesh->gain(triangle, point);
+    const ShapeLight* shape = std::get_if<ShapeLight>(&data_.lights[light]);
+    return shape != nullptr ? shape->gain(on_light, point) : 1.0f;
 }
 
 }  // namespace etendue

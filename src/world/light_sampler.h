@@ -64,9 +64,10 @@ class LightSampler {
     /// `chooses_lights_by_receiver`.
     [[nodiscard]] float pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point, const Vec3f& direction,
                                         float distance) const;
-    /// Returns how many times as densely `sample` at `point` picks the points of this triangle of the light of this
-    /// index as `LightEmitter::sample` does, both without the choice; 1 for lights that are no meshes.
-    [[nodiscard]] float gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& point) const;
+    /// Returns how many times as densely `sample` at `point` picks the place `on_light`, of this triangle of the light
+    /// of this index, as `LightEmitter::sample` does, both without the choice; 1 for lights without a surface.
+    [[nodiscard]] float gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light,
+                             const Vec3f& point) const;
 
     /// Returns the light that the surface at `point` belongs to; kNone if it is not sampled.
     [[nodiscard]] std::uint32_t at(const SurfacePoint& point) const;

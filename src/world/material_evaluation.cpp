@@ -14,14 +14,17 @@ float evaluate_opacity(const WorldData& data, std::uint32_t geometry_index, std:
     const Geometry& geometry = data.geometries[geometry_index];
     const Material& material = data.materials[geometry.material];
     if (material.alpha_test == AlphaTest::Opaque) return 1.0f;
-    const auto& triangle = geometry.triangles[triangle_index];
     float alpha = material.alpha_factor;
-    if (!geometry.colors.empty()) alpha *= interpolate(geometry.colors, triangle, barycentric).w;
-    if (material.alpha_texture.valid()) {
-        const Vec2f uv[2] = {interpolate_uv(geometry.uv0, triangle, barycentric),
-                             interpolate_uv(geometry.uv1, triangle, barycentric)};
-        alpha *= lookup_point(data, material.alpha_texture, uv).alpha;
+    Vec2f uv[2];
+    if (geometry.shape) {
+        uv[0] = uv[1] = geometry.shape->uv(shape_place(triangle_index, barycentric));
+    } else {
+        const auto& triangle = geometry.triangles[triangle_index];
+        if (!geometry.colors.empty()) alpha *= interpolate(geometry.colors, triangle, barycentric).w;
+        uv[0] = interpolate_uv(geometry.uv0, triangle, barycentric);
+        uv[1] = interpolate_uv(geometry.uv1, triangle, barycentric);
     }
+    if (material.alpha_texture.valid()) alpha *= lookup_point(data, material.alpha_texture, uv).alpha;
     if (material.alpha_test == AlphaTest::Mask) return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
     return std::clamp(alpha, 0.0f, 1.0f);
 }

@@ -63,7 +63,7 @@ PlainSurfaces find_plain_surfaces(const WorldData& data) {
             const Geometry& geometry = data.geometries[index];
             const PlainSurface& surface = surfaces.of_material[geometry.material];
             // Vertex colours tint what glTF's model says, and nothing else.
-            if (is_plain[geometry.material] && geometry.motion.empty() &&
+            if (is_plain[geometry.material] && geometry.motion.empty() && !geometry.shape &&
                 (surface.matte != nullptr || geometry.colors.empty()))
                 surfaces.of_geometry[index] = &surface;
         }

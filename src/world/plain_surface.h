@@ -10,9 +10,9 @@ namespace etendue {
 
 struct WorldData;
 
-/// Describes what most surfaces are: placed once or copied, and still. They do not emit light, bound no body, and have
-/// no relief; they are matte, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex colours, whose
-/// base colour, metalness and roughness may come from textures that share a set of coordinates.
+/// Describes what most surfaces are: triangles, placed once or copied, and still. They do not emit light, bound no
+/// body, and have no relief; they are matte, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex
+/// colours, whose base colour, metalness and roughness may come from textures that share a set of coordinates.
 struct PlainSurface {
     const Bsdf* matte = nullptr;          ///< its Diffuse lobe, or null
     Rgb albedo{};                         ///< albedo of the Diffuse lobe

@@ -160,10 +160,12 @@ HitCoordinates SceneGeometry::hit_coordinates(const Hit& hit, const PlainSurface
 void SceneGeometry::fetch_far_triangles(std::span<const Hit> hits) const {
     // First all that say where the vertices are, so that these, too, arrive together.
     for (const Hit& hit : hits)
-        if (hit.valid()) __builtin_prefetch(&data_.geometries[hit.geometry].triangles[hit.triangle]);
+        if (hit.valid() && !data_.geometries[hit.geometry].shape)
+            __builtin_prefetch(&data_.geometries[hit.geometry].triangles[hit.triangle]);
     for (const Hit& hit : hits) {
         if (!hit.valid()) continue;
         const Geometry& geometry = data_.geometries[hit.geometry];
+        if (geometry.shape) continue;
         for (const std::uint32_t vertex : geometry.triangles[hit.triangle]) {
             __builtin_prefetch(&geometry.positions[vertex]);
             if (!geometry.normals.empty()) __builtin_prefetch(&geometry.normals[vertex]);

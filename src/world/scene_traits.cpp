@@ -32,7 +32,8 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
         return std::ranges::any_of(data.geometries,
                                    [&](const Geometry& g) { return is_such(data.materials[g.material]); });
     };
-    const auto has_opposites = [](const Light& light) {
+    const auto depends_on_point = [](const Light& light) {
+        if (const ShapeLight* shape = std::get_if<ShapeLight>(&light)) return shape->depends_on_point();
         const MeshLight* mesh = std::get_if<MeshLight>(&light);
         return mesh != nullptr && mesh->has_opposites();
     };
@@ -64,7 +65,7 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.has_sampled_lights = !lights.tree().empty();
     traits.chooses_lights = lights.tree().has_choice();
     traits.chooses_lights_by_receiver =
-        lights.tree().depends_on_receiver() || std::ranges::any_of(data.lights, has_opposites);
+        lights.tree().depends_on_receiver() || std::ranges::any_of(data.lights, depends_on_point);
     traits.chooses_emitters = emitters.selector().size() > 1;
     traits.has_environment = data.environment != kNone;
     traits.environment_visible_to_camera = data.environment_visible;

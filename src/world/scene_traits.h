@@ -25,7 +25,8 @@ struct SceneTraits {
     bool hides_surfaces = false;          ///< some surface is hidden from the camera
     bool has_shadow_catchers = false;     ///< the camera sees shadows in place of some surface
     bool culls_backs = false;             ///< the eye does not see some surface from behind
-    bool has_unsampled_emitters = false;  ///< some of these move or are beyond the most triangles that are sampled
+    /// Is set if some of these move, are uneven shapes or are beyond the most triangles that are sampled.
+    bool has_unsampled_emitters = false;
 
     bool has_bodies = false;             ///< there is something that light can be in
     bool has_scattering_bodies = false;  ///< light scatters in some bodies
@@ -35,7 +36,7 @@ struct SceneTraits {
     bool has_delta_lights = false;    ///< some light has no extent, so that no ray meets it by chance
     bool has_sampled_lights = false;  ///< samples of the BSDF do not find all light best; `LightSampler` is for these
     bool chooses_lights = false;      ///< there is more than one light for `LightSampler` to choose from
-    bool chooses_lights_by_receiver = false;  ///< the choice of a light, or of its triangle, depends on what it is for
+    bool chooses_lights_by_receiver = false;  ///< the choice of a light, or of a place on it, depends on what it is for
     bool chooses_emitters = false;            ///< there is more than one light for `LightEmitter` to choose from
     bool has_environment = false;             ///< there is light from infinitely far away in every direction
     bool environment_visible_to_camera = false;  ///< camera rays that meet nothing show the environment

@@ -7,11 +7,14 @@
 #include "world/material_evaluation.h"
 #include "world/motion.h"
 #include "world/relief_spread.h"
+#include "world/section_ellipse.h"
 #include "world/triangle_point.h"
 #include "world/world.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace etendue {
@@ -159,10 +162,65 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
     return point;
 }
 
+/// Makes the point of a shape, which is smooth: its geometric normal is the shading normal, too.
+SurfacePoint make_point_of_shape(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
+                                 std::uint32_t triangle_index, Vec2f barycentric, float time,
+                                 const ConeSection& section) {
+    const Instance& instance = data.instances[instance_index];
+    const Geometry& geometry = data.geometries[geometry_index];
+    const Material& material = data.materials[geometry.material];
+    SurfacePoint point;
+    point.material = &material;
+    point.instance = instance_index;
+    point.geometry = geometry_index;
+    point.triangle = triangle_index;
+
+    ShapePoint on_shape = geometry.shape->point(shape_place(triangle_index, barycentric));
+    Vec3f extent(0.0f);
+    for (const Vec3f& corner : geometry.positions) extent = max_components(extent, abs_components(corner));
+    Vec3f error = position_error(extent);
+    if (!instance.baked) {
+        const bool moves = instance.motion != kNone;
+        const Mat4f to_world = moves ? transform_at(data.motions[instance.motion], time) : instance.to_world;
+        error = position_error(extent, to_world);
+        if (moves) error = max_components(error, step_error(extent, data.motions[instance.motion], time));
+        on_shape.position = transform_point(to_world, on_shape.position);
+        on_shape.normal = normalize(transform_normal(moves ? to_world.inverse() : instance.to_local, on_shape.normal));
+        on_shape.along_u = transform_vector(to_world, on_shape.along_u);
+        on_shape.along_v = transform_vector(to_world, on_shape.along_v);
+    }
+    point.position = on_shape.position;
+    point.geometric_normal = on_shape.normal;
+    point.clearance = clearance(point.geometric_normal, error);
+    point.uv[0] = point.uv[1] = on_shape.uv;
+    if (section.width > 0.0f) {
+        const SectionEllipse<float> ellipse(section.direction, section.width, point.geometric_normal);
+        const TextureEllipse<float> in_texture(ellipse, on_shape.along_u, on_shape.along_v, point.geometric_normal,
+                                               {1.0f, 0.0f}, {0.0f, 1.0f});
+        point.footprint[0] = point.footprint[1] = {{in_texture.along, in_texture.across}};
+    }
+    // Along the image of the texture as it lies on the shape, its transform included.
+    Vec3f tangent = on_shape.along_u;
+    Vec3f down = on_shape.along_v;
+    if (const TextureSlot* slot = material.tangent_texture()) {
+        const float determinant = slot->row0.x * slot->row1.y - slot->row0.y * slot->row1.x;
+        const float sign = determinant < 0.0f ? -1.0f : 1.0f;
+        tangent = (on_shape.along_u * slot->row1.y - on_shape.along_v * slot->row1.x) * sign;
+        down = (on_shape.along_v * slot->row0.x - on_shape.along_u * slot->row0.y) * sign;
+    }
+    point.shading = Frame::from_normal_and_tangent(
+        point.geometric_normal, tangent * (1.0f / std::max(max_abs(tangent), std::numeric_limits<float>::min())));
+    const float bitangent_sign = dot(point.shading.bitangent, down) > 0.0f ? -1.0f : 1.0f;
+    if (material.needs_tangents() || material.has_coat) apply_relief(data, material, bitangent_sign, point);
+    return point;
+}
+
 }  // namespace
 
 SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
                                 std::uint32_t triangle, Vec2f barycentric, float time, const ConeSection& section) {
+    if (data.geometries[geometry].shape)
+        return make_point_of_shape(data, instance, geometry, triangle, barycentric, time, section);
     const bool moves = data.instances[instance].motion != kNone || !data.geometries[geometry].motion.empty();
     return moves ? make_point<true>(data, instance, geometry, triangle, barycentric, time, section)
                  : make_point<false>(data, instance, geometry, triangle, barycentric, time, section);

@@ -44,6 +44,24 @@ void under_hidden_lamp(SceneDesc& scene) {
     add_object(scene, quad({0.1f, -0.3f, -2.3f}, {0.3f, 0, 0.1f}, {0, 0.1f, -0.2f}), add_material(scene, card));
 }
 
+/// A room with exact shapes of all kinds, three of which are lamps, one of them within reach of the wall.
+void under_shapes(SceneDesc& scene) {
+    const auto ball = add_material(scene, gltf_plastic());
+    add_object(scene, exact(ShapeKind::Sphere, Vec3f(0.4f)), ball, translation({0.2f, -0.25f, -3.0f}));
+    add_object(scene, exact(ShapeKind::Cylinder, {0.15f, 0.3f, 0.15f}), add_material(scene, glass(0.6f)),
+               translation({-0.7f, -0.3f, -3.1f}));
+    MaterialDesc both_sides = emissive(Rgb(4.0f));
+    both_sides.double_sided = true;
+    Mat4f leaning;
+    leaning.setEulerAngles(Vec3f(0.9f, 0.3f, 0.0f));
+    add_object(scene, exact(ShapeKind::Sphere, Vec3f(0.2f)), add_material(scene, emissive(Rgb(8.0f))),
+               translation({0.7f, 0.5f, -4.15f}));
+    add_object(scene, exact(ShapeKind::Disk, Vec3f(0.25f)), add_material(scene, both_sides),
+               leaning * translation({-0.5f, 0.7f, -3.0f}));
+    add_object(scene, exact(ShapeKind::Cylinder, {0.05f, 0.3f, 0.05f}), add_material(scene, emissive(Rgb(12.0f))),
+               leaning * translation({0.1f, 0.9f, -2.8f}));
+}
+
 /// Surfaces whose backs are culled in a room, facing both ways, two of them in one place.
 void add_culled(SceneDesc& scene) {
     scene.settings.cull_backfaces = true;
@@ -333,6 +351,8 @@ std::vector<AgreementCase> all_cases() {
                      all,
                      8,
                      bdpt});
+    // Cones of directions from points, areas for light paths; lamps, bodies and receivers that are exact.
+    cases.push_back({"ShapeLamps", under_shapes, {.max_depth = 4}, all, 16, {"path", "light", "bdpt", "vcm"}});
     return cases;
 }
 

@@ -69,6 +69,8 @@ struct ClosedFormCase {
 [[nodiscard]] std::vector<ClosedFormCase> far_from_origin_cases();
 /// Emitters, occluders and cameras that move while the shutter is open.
 [[nodiscard]] std::vector<ClosedFormCase> motion_cases();
+/// Exact shapes as lamps and as bodies.
+[[nodiscard]] std::vector<ClosedFormCase> shape_cases();
 /// Partly transparent cards, lights and films.
 [[nodiscard]] std::vector<ClosedFormCase> transparency_cases();
 

@@ -150,7 +150,7 @@ PrimitiveDesc sphere(const Vec3f& center, float radius, int subdivisions, Facing
 }
 
 void add(SceneDesc& scene, const PrimitiveDesc& shape, const MaterialDesc& material, const Mat4f& to_world) {
-    PrimitiveDesc primitive = faceted(shape);
+    PrimitiveDesc primitive = shape.shape ? shape : faceted(shape);
     primitive.material.index = static_cast<std::int32_t>(scene.materials.size());
     scene.materials.push_back(material);
     InstanceDesc instance;

@@ -33,7 +33,7 @@ enum class Facing { Outwards, Inwards };
 /// An icosahedron whose triangles have been quartered `subdivisions` times, corners on the sphere.
 [[nodiscard]] PrimitiveDesc sphere(const Vec3f& center, float radius, int subdivisions, Facing facing);
 
-/// Adds a mesh of the triangles of `shape` and one instance of it. It is faceted: shaded as the polyhedron that it is.
+/// Adds a mesh of the triangles of `shape`, faceted, or of the exact shape that it is, and one instance of it.
 void add(SceneDesc& scene, const PrimitiveDesc& shape, const MaterialDesc& material, const Mat4f& to_world = Mat4f());
 
 /// Adds a light at `position` that points along the unit vector `direction`. Returns it for the settings of spots.

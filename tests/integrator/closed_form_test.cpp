@@ -35,7 +35,7 @@ void PrintTo(const ClosedFormRun& comparison, std::ostream* out) {
 std::vector<ClosedFormCase> all_closed_forms() {
     std::vector<ClosedFormCase> cases;
     for (const auto& list : {direct_light_cases, environment_cases, furnace_cases, far_from_origin_cases, motion_cases,
-                             transparency_cases, body_cases, mixed_light_cases, leaning_normal_cases})
+                             transparency_cases, body_cases, mixed_light_cases, leaning_normal_cases, shape_cases})
         std::ranges::move(list(), std::back_inserter(cases));
     return cases;
 }

@@ -29,6 +29,13 @@ MeshLight mesh(bool two_sided, bool mirrored) {
             Vec3f(1e-6f)};
 }
 
+ShapeLight shape(ShapeKind kind, bool two_sided) {
+    Mat4f to_world;
+    to_world.setScale(Vec3f(0.6f));
+    to_world[3][0] = 0.4f;
+    return {ExactShape(kind, to_world), Rgb(3.0f, 1.0f, 2.0f), Rgb(3.0f, 1.0f, 2.0f), two_sided, true, Vec3f(1e-6f)};
+}
+
 std::vector<NamedLight> lights() {
     const Vec3f axis = normalize({0.3f, -1.0f, 0.5f});
     ImageF sky(16, 8, 3);
@@ -42,7 +49,10 @@ std::vector<NamedLight> lights() {
             {"mirrored mesh", mesh(false, true)},
             {"two-sided mesh", mesh(true, false)},
             {"constant environment", ConstantEnvironment{Rgb(0.4f)}},
-            {"image environment", ImageEnvironment(sky, 0.7f)}};
+            {"image environment", ImageEnvironment(sky, 0.7f)},
+            {"sphere", shape(ShapeKind::Sphere, false)},
+            {"two-sided disk", shape(ShapeKind::Disk, true)},
+            {"cylinder", shape(ShapeKind::Cylinder, false)}};
 }
 
 EmissionNumbers numbers(Random& random) {

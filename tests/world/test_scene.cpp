@@ -59,6 +59,13 @@ void add_object(SceneDesc& scene, PrimitiveDesc primitive, Handle<MaterialDesc> 
     place(scene, add_mesh(scene, {std::move(primitive)}), to_world);
 }
 
+PrimitiveDesc exact(ShapeKind kind, const Vec3f& half_size) {
+    PrimitiveDesc primitive;
+    primitive.shape = {kind, half_size};
+    primitive.positions = primitive.shape->corners();
+    return primitive;
+}
+
 PrimitiveDesc quad(const Vec3f& center, const Vec3f& x, const Vec3f& y) {
     PrimitiveDesc primitive;
     primitive.positions = {center - x - y, center + x - y, center + x + y, center - x + y};

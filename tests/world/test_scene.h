@@ -35,6 +35,8 @@ void add_object(SceneDesc& scene, PrimitiveDesc primitive, Handle<MaterialDesc> 
 [[nodiscard]] PrimitiveDesc quad(const Vec3f& center, const Vec3f& x, const Vec3f& y);
 /// A sphere of longitude-latitude patches with exact normals and the front outside.
 [[nodiscard]] PrimitiveDesc sphere(const Vec3f& center, float radius, int rings);
+/// An exact shape around the origin with half its size along each axis.
+[[nodiscard]] PrimitiveDesc exact(ShapeKind kind, const Vec3f& half_size);
 /// `count` random triangles inside the cube [-1, 1]³, of sides up to `size`, flat normals.
 [[nodiscard]] PrimitiveDesc soup(Random& random, int count, float size);
 

@@ -3,7 +3,6 @@
 #include "core/shown_text.h"
 #include "image/read.h"
 #include "loader/files.h"
-#include "loader/gltf/gltf_transform.h"
 #include "loader/ies/ies_file.h"
 #include "loader/json_text.h"
 #include "loader/settings/json_object.h"
@@ -242,7 +241,7 @@ class LightChanges {
         if (!lamp.enabled) return;
         LampToAdd one{&name, &lamp, {}};
         if (lamp.place.position) {
-            one.to_world = placed(lamp.place);
+            one.to_world = placed(lamp.place, scene_.origin);
             added.push_back(one);
         } else if (lamp.place.node.empty() && !replaced.empty()) {
             for (const std::size_t i : replaced) {
@@ -272,18 +271,6 @@ class LightChanges {
         else
             report(lamp, at(lamp, "node"),
                    fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
-    }
-
-    [[nodiscard]] Mat4f placed(const LampPlace& place) const {
-        if (place.look_at) {
-            CameraDesc view;
-            aim({.position = *place.position, .look_at = *place.look_at, .up = place.up}, scene_.origin, view);
-            return view.to_world;
-        }
-        Mat4f to_world = to_float(rotation_matrix(place.rotation).value_or(Mat4d()));
-        const Vec3f position(*place.position - scene_.origin);
-        for (int i = 0; i < 3; ++i) to_world[3][i] = position[i];
-        return to_world;
     }
 
     /// Puts surfaces in place of points that have a radius, and leaves out what is not wanted.

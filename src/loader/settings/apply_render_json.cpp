@@ -127,6 +127,7 @@ void apply_render_json(const RenderJson& json, std::span<const std::filesystem::
     apply_camera(json, scene, problems);
     apply_environment(json, assets, scene, problems);
     apply_materials(json, scene, problems);
+    apply_shapes(json.shapes, scene, problems);
     apply_lights(json.lights, scene, problems);
 }
 

@@ -1,6 +1,5 @@
 #include "loader/settings/light_override.h"
 
-#include "loader/gltf/gltf_transform.h"
 #include "loader/settings/json_object.h"
 
 #include <algorithm>
@@ -118,44 +117,6 @@ void check_size(const LightOverride& light, JsonObject& object) {
     if (light.inner_cone_angle > light.outer_cone_angle || !(light.outer_cone_angle > 0.0f))
         refuse(object.has("outer_cone_angle") ? "outer_cone_angle" : "inner_cone_angle",
                "the outer cone must be above 0, and no narrower than the inner one");
-}
-
-/// Finds an up that is not parallel to where the lamp looks, unless the document says which it is.
-void check_view(LampPlace& place, JsonObject& object) {
-    const Vec3d towards = *place.look_at - *place.position;
-    if (!(towards.length() > 0.0)) {
-        object.problems().error(object.at("look_at"), "must differ from position");
-        return;
-    }
-    constexpr double kParallel = 1e-6;
-    const auto is_parallel = [&](const Vec3f& up) {
-        const Vec3d across = Vec3d(up).cross(towards);
-        return !(across.length() > kParallel * Vec3d(up).length() * towards.length());
-    };
-    if (object.has("up")) {
-        if (is_parallel(place.up))
-            object.problems().error(object.at("up"), "must not be zero or parallel to the viewing direction");
-    } else if (is_parallel(place.up)) {
-        place.up = {0.0f, 0.0f, -1.0f};
-    }
-}
-
-void read_place(JsonObject& object, LampPlace& place) {
-    object.text("node", place.node);
-    if (Vec3d position; object.vector("position", position)) place.position = position;
-    if (Vec3d look_at; object.vector("look_at", look_at)) place.look_at = look_at;
-    object.vector("up", place.up);
-    if (object.quaternion("rotation", place.rotation) && !rotation_matrix(place.rotation))
-        object.problems().error(object.at("rotation"), "must not be zero");
-    const auto refuse = [&](std::string_view key, std::string_view why) {
-        if (object.has(key)) object.problems().error(object.at(key), std::string(why));
-    };
-    if (object.has("node")) refuse("position", "the node says where the light is: leave one of both out");
-    if (object.has("look_at")) refuse("rotation", "look_at says the same: leave one of both out");
-    for (const std::string_view key : {"rotation", "look_at", "up"})
-        if (!object.has("position")) refuse(key, "needs a position");
-    if (!object.has("look_at")) refuse("up", "needs a look_at");
-    if (place.position && place.look_at) check_view(place, object);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include "core/error.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "loader/settings/place.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,18 +17,9 @@ namespace etendue {
 /// Kinds of lamps that render.json adds.
 enum class LampKind : std::uint8_t { Rectangle, Disk, Sphere, Sun, Point, Spot };
 
-/// Where a lamp of render.json is; nowhere said, if it has neither a node nor a position.
-struct LampPlace {
-    std::string node;  ///< name of the node that places it; empty for none
-    std::optional<Vec3d> position;
-    std::array<double, 4> rotation{0.0, 0.0, 0.0, 1.0};  ///< quaternion x, y, z, w
-    std::optional<Vec3d> look_at;                        ///< in place of the rotation
-    Vec3f up{0.0f, 1.0f, 0.0f};                          ///< not parallel to where it looks
-};
-
 struct LightOverride {
     std::optional<LampKind> kind;  ///< none for a change of a lamp of the file
-    LampPlace place;
+    Place place;
     std::optional<Rgb> color;
     std::optional<float> intensity;   ///< candela or lux
     std::optional<float> power;       ///< W

@@ -227,6 +227,12 @@ void read_overrides(JsonObject& object, RenderJson& out) {
             out.lights[name] = read_light(value, lights.at(name), problems);
         });
     }
+    if (const Json* member = object.member("shapes")) {
+        JsonObject shapes(*member, object.at("shapes"), problems);
+        shapes.each([&](const std::string& name, const Json& value) {
+            out.shapes[name] = read_shape(value, shapes.at(name), problems);
+        });
+    }
 }
 
 /// Reads the whole document.

@@ -4,6 +4,7 @@
 #include "loader/settings/camera_changes.h"
 #include "loader/settings/light_override.h"
 #include "loader/settings/material_factors.h"
+#include "loader/settings/shape_change.h"
 #include "scene/scene_desc.h"
 
 #include <filesystem>
@@ -57,6 +58,7 @@ struct RenderJson {
     std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved
     std::map<std::string, MaterialOverride> materials;
     std::map<std::string, LightOverride> lights;
+    std::map<std::string, ShapeChange> shapes;
     SourceLocation location;
     std::filesystem::path file;  ///< that it was read from; empty if no file was
     std::string document;        ///< the text of all of it

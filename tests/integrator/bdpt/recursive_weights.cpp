@@ -181,8 +181,8 @@ class GivenPath {
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
             chosen.sample.pdf_solid_angle = chosen.expected_samples * world.emitters().pdf_area(end.light) *
-                                            world.lights().gain(end.light, end.triangle, position) * squared /
-                                            std::abs(end.cos_light);
+                                            world.lights().gain(end.light, end.triangle, end.position, position) *
+                                            squared / std::abs(end.cos_light);
         return chosen;
     }
 

@@ -116,6 +116,11 @@ const char* const kGood[] = {
         "h": {"type": "point", "ies": "x.ies"}, "i": {"radius": 1, "visible_to_camera": false, "power": 2},
         "j": {"angle": 0.1, "irradiance": 2}}})",
     R"({"materials": {"a": {"shadow_catcher": true}, "b": {"diffuse": {}, "shadow_catcher": false}}})",
+    R"({"shapes": {}})",
+    R"({"shapes": {"a": {"type": "sphere", "radius": 1, "material": "m", "node": "n"}, "b": {"type": "disk", "radius":
+        0.1, "position": [0, 1, 2], "rotation": [0, 0, 0, 1]}, "c": {"type": "rectangle", "width": 2, "height": 3,
+        "position": [0, 1, 2], "look_at": [0, 0, 0], "up": [0, 0, 1]}, "d": {"type": "cylinder", "radius": 1, "height":
+        2}}})",
     R"({"materials": {"a": {"visible_to_camera": false}, "b": {"diffuse": {}, "visible_to_camera": true}}})",
     R"({"materials": {"a": {"base_color": [0.5, 1, 0], "metallic": 0, "roughness": 0, "normal_scale": 1, "emissive":
         [0.5, 1, 0], "emissive_strength": 0, "alpha_cutoff": 0, "ior": 1, "specular": 0, "specular_color": [0.5, 1,
@@ -150,6 +155,16 @@ const char* const kBad[] = {
     R"({"unknown": 1})",
     R"({"scene": 1})",
     R"({"scene": ""})",
+    R"({"shapes": []})",
+    R"({"shapes": {"a": {}}})",
+    R"({"shapes": {"a": {"radius": 1}}})",
+    R"({"shapes": {"a": {"type": "cone"}}})",
+    R"({"shapes": {"a": {"type": "sphere", "radius": 0}}})",
+    R"({"shapes": {"a": {"type": "rectangle", "width": -1}}})",
+    R"({"shapes": {"a": {"type": "cylinder", "height": "1"}}})",
+    R"({"shapes": {"a": {"type": "disk", "material": ""}}})",
+    R"({"shapes": {"a": {"type": "disk", "position": [0, 1]}}})",
+    R"({"shapes": {"a": {"type": "disk", "color": [0, 1, 1]}}})",
     R"({"frames": [1]})",
     R"({"frames": [1, 2, 3, 4]})",
     R"({"frames": "1:2"})",

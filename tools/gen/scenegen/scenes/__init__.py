@@ -1,8 +1,8 @@
 """One module per scene. To add another: a module with `build()` that returns a GeneratedScene, and its line here."""
 
-from . import (ajar_door, caustic_glass, caustic_glasses, caustic_mirror, caustic_pool, caustic_prism, caustic_ring, cornell_box,
-               cornell_glass, diamond, furnace, glossy_interior, instances, many_lights, material_grid, sun_and_sky, torus_in_glass,
-               veach_bidir, veach_mis)
+from . import (ajar_door, caustic_ball, caustic_glass, caustic_glasses, caustic_mirror, caustic_pool, caustic_prism,
+               caustic_ring, cornell_box, cornell_glass, diamond, furnace, glossy_interior, instances, many_lights,
+               material_grid, sun_and_sky, torus_in_glass, veach_bidir, veach_mis)
 
 SCENES = {
     "cornell-box": cornell_box.build,
@@ -13,6 +13,7 @@ SCENES = {
     "sun-and-sky": sun_and_sky.build,
     "instances": instances.build,
     "caustic-glass": caustic_glass.build,
+    "caustic-ball": caustic_ball.build,
     "caustic-ring": caustic_ring.build,
     "caustic-pool": caustic_pool.build,
     "caustic-prism": caustic_prism.build,

@@ -18,12 +18,12 @@ INDEX = 1.5
 LAMP_SIZE, LAMP_CENTER, LAMP_RADIANCE = 0.04, (-0.93, 1.12, -0.75), (3200.0, 3000.0, 2700.0)
 
 
-def build():
+def build(sphere_frequency=SPHERE_FREQUENCY):
     scene = GeneratedScene()
     materials = {name: scene.add_diffuse(name, albedo) for name, albedo in ALBEDOS.items()}
     add_room(scene, ROOM_LOW, ROOM_HIGH, {side: materials[name] for side, name in WALLS.items()})
     glass = scene.add_glass("glass", INDEX, thickness=2.0 * SPHERE_RADIUS)
-    scene.add_object("sphere", sphere(SPHERE_RADIUS, SPHERE_FREQUENCY), glass, closed=True, translation=SPHERE_CENTER)
+    scene.add_object("sphere", sphere(SPHERE_RADIUS, sphere_frequency), glass, closed=True, translation=SPHERE_CENTER)
     scene.add_lamp("lamp", panel(LAMP_SIZE, LAMP_SIZE), LAMP_RADIANCE, translation=LAMP_CENTER,
                    rotation=look_at(LAMP_CENTER, SPHERE_CENTER))
     position = (0.3, 1.5, 2.9)

@@ -1,0 +1,158 @@
+#include "loader/settings/shape_change.h"
+
+#include "core/shown_text.h"
+#include "loader/json_text.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Returns the sorted names of `things`, each once.
+template <typename Thing>
+std::vector<std::string_view> sorted_names(const std::vector<Thing>& things) {
+    std::set<std::string_view> names;
+    for (const Thing& thing : things)
+        if (!thing.name.empty()) names.insert(thing.name);
+    return {names.begin(), names.end()};
+}
+
+/// Puts shapes into a scene.
+class ShapePlacer {
+  public:
+    ShapePlacer(SceneDesc& scene, ProblemList& problems) : scene_(scene), problems_(problems) {}
+
+    void put(const std::string& name, const ShapeChange& change) {
+        Handle<MaterialDesc> material;
+        if (!change.material.empty()) {
+            const auto found = std::ranges::find(scene_.materials, change.material, &MaterialDesc::name);
+            if (found == scene_.materials.end())
+                return report(change, "material",
+                              fmt::format("the scene has no material '{}'; {}", shown(change.material),
+                                          name_hint(change.material, sorted_names(scene_.materials))));
+            material.index = static_cast<std::int32_t>(found - scene_.materials.begin());
+        }
+        if (change.place.position) {
+            add(name, change, material, placed(change.place, scene_.origin), NodeDesc::kNone);
+            return;
+        }
+        const std::string& node = change.place.node.empty() ? name : change.place.node;
+        std::vector<std::uint32_t> nodes;
+        for (std::uint32_t n = 0; n < scene_.nodes.size(); ++n)
+            if (scene_.nodes[n].name == node) nodes.push_back(n);
+        if (nodes.empty() && change.place.node.empty())
+            return problems_.error(change.location,
+                                   fmt::format("nothing says where the shape is: give it a \"position\" or a \"node\", "
+                                               "or the name of one; {}",
+                                               name_hint(node, sorted_names(scene_.nodes))));
+        if (nodes.empty())
+            return report(change, "node",
+                          fmt::format("the scene has no node '{}'; {}", shown(node),
+                                      name_hint(node, sorted_names(scene_.nodes))));
+        if (replace_meshes(name, change, material, nodes)) return;
+        for (const std::uint32_t n : nodes) add(name, change, material, scene_.nodes[n].to_world, n);
+    }
+
+  private:
+    void report(const ShapeChange& change, std::string_view key, std::string message) {
+        problems_.error({change.location.file, child_pointer(change.location.pointer, key)}, std::move(message));
+    }
+
+    /// Puts the shape where the meshes of these nodes are; false if they have none.
+    bool replace_meshes(const std::string& name, const ShapeChange& change, Handle<MaterialDesc> material,
+                        const std::vector<std::uint32_t>& nodes) {
+        std::map<std::int32_t, Handle<MeshDesc>> shape_of_mesh;
+        for (InstanceDesc& instance : scene_.instances) {
+            if (std::ranges::find(nodes, instance.node) == nodes.end()) continue;
+            const auto [entry, is_new] = shape_of_mesh.try_emplace(instance.mesh.index);
+            if (is_new) {
+                const std::vector<PrimitiveDesc>& primitives =
+                    scene_.meshes[static_cast<std::size_t>(instance.mesh.index)].primitives;
+                std::vector<VariantMaterial> variants;
+                Handle<MaterialDesc> taken = material;
+                if (!taken && !primitives.empty()) {
+                    taken = primitives.front().material;
+                    variants = primitives.front().variants;
+                }
+                entry->second = make_mesh(name, change, taken, std::move(variants));
+            }
+            instance.mesh = entry->second;
+        }
+        return !shape_of_mesh.empty();
+    }
+
+    void add(const std::string& name, const ShapeChange& change, Handle<MaterialDesc> material, const Mat4f& to_world,
+             std::uint32_t node) {
+        if (!material)
+            return problems_.error(change.location,
+                                   "must have a \"material\", as there is no mesh whose place it takes");
+        InstanceDesc instance;
+        instance.name = name;
+        instance.mesh = make_mesh(name, change, material, {});
+        instance.to_world = to_world;
+        instance.location = change.location;
+        instance.node = node;
+        scene_.instances.push_back(std::move(instance));
+    }
+
+    Handle<MeshDesc> make_mesh(const std::string& name, const ShapeChange& change, Handle<MaterialDesc> material,
+                               std::vector<VariantMaterial> variants) {
+        PrimitiveDesc primitive;
+        primitive.shape = change.shape;
+        primitive.positions = change.shape.corners();
+        primitive.material = material;
+        primitive.variants = std::move(variants);
+        primitive.location = change.location;
+        MeshDesc& mesh = scene_.meshes.emplace_back();
+        mesh.name = name;
+        mesh.location = change.location;
+        mesh.primitives.push_back(std::move(primitive));
+        return {static_cast<std::int32_t>(scene_.meshes.size()) - 1};
+    }
+
+    SceneDesc& scene_;
+    ProblemList& problems_;
+};
+
+}  // namespace
+
+ShapeChange read_shape(const nlohmann::json& value, const SourceLocation& where, ProblemList& problems) {
+    ShapeChange change;
+    change.location = where;
+    JsonObject object(value, where, problems);
+    if (!object.has("type")) problems.error(where, "'type' is missing");
+    const bool has_type = object.choice("type", kShapeKinds, change.shape.kind);
+    const ShapeKind kind = change.shape.kind;
+    const auto size = [&](std::string_view key, bool is_its_own, float standard) {
+        float metres = standard;
+        const bool is_said = object.number(key, kPositive, metres);
+        if (is_said && has_type && !is_its_own)
+            problems.error(object.at(key), fmt::format("a {} has no {}", shape_name(kind), key));
+        return metres;
+    };
+    const bool is_rectangle = kind == ShapeKind::Rectangle;
+    const float radius = size("radius", !is_rectangle, 0.5f);
+    const float width = size("width", is_rectangle, 1.0f);
+    const float height = size("height", is_rectangle || kind == ShapeKind::Cylinder, 1.0f);
+    change.shape.half_size = Vec3f(radius);
+    if (is_rectangle) change.shape.half_size = {0.5f * width, 0.5f * height, 0.5f};
+    if (kind == ShapeKind::Cylinder) change.shape.half_size.y = 0.5f * height;
+    object.text("material", change.material);
+    read_place(object, change.place);
+    object.finish();
+    return change;
+}
+
+void apply_shapes(const std::map<std::string, ShapeChange>& changes, SceneDesc& scene, ProblemList& problems) {
+    ShapePlacer placer(scene, problems);
+    for (const auto& [name, change] : changes) placer.put(name, change);
+}
+
+}  // namespace etendue

@@ -1,0 +1,270 @@
+// Exact shapes in a World: what rays meet of them, one by one and in packets, and what is known there.
+#include "core/position_error.h"
+#include "scene/accelerator_kind.h"
+#include "shape/shape.h"
+#include "world/accelerated_scene.h"
+#include "world/test_scene.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr ShapeKind kShapes[] = {ShapeKind::Sphere, ShapeKind::Disk, ShapeKind::Rectangle, ShapeKind::Cylinder};
+const Vec3f kHalfSize{1.2f, 0.8f, 1.0f};
+
+ExactShape reference(ShapeKind kind, const Mat4f& to_world) {
+    return ExactShape(kind, scaling(kHalfSize) * to_world);
+}
+
+/// One of each kind among triangles, or several of each.
+SceneDesc scene_of_shapes(bool are_instanced, std::vector<Mat4f>& places, MaterialDesc material = diffuse(Rgb(0.5f))) {
+    Random random(5);
+    SceneDesc scene = empty_scene();
+    const auto handle = add_material(scene, std::move(material));
+    for (const ShapeKind kind : kShapes) {
+        PrimitiveDesc primitive = exact(kind, kHalfSize);
+        primitive.material = handle;
+        const auto mesh = add_mesh(scene, {primitive});
+        for (const bool mirrored : {false, true}) {
+            if (mirrored && !are_instanced) break;
+            places.push_back(random_transform(random, mirrored));
+            place(scene, mesh, places.back());
+        }
+    }
+    return scene;
+}
+
+ShapeKind kind_of(const SceneDesc& scene, std::size_t instance) {
+    return scene.meshes[static_cast<std::size_t>(scene.instances[instance].mesh.index)].primitives[0].shape->kind;
+}
+
+std::vector<Ray> rays_around(std::size_t count) {
+    Random random(6);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) {
+        ray.origin = random_direction(random) * (4.0f * random.next());
+        ray.direction = random_direction(random);
+        if (random.next() < 0.3f) ray.t_max = 2.0f * random.next();
+    }
+    return rays;
+}
+
+TEST(Shapes, AreMetWhereTheirEquationsSay) {
+    for (const bool are_instanced : {false, true}) {
+        std::vector<Mat4f> places;
+        const SceneDesc scene = scene_of_shapes(are_instanced, places);
+        std::vector<ExactShape> shapes;
+        for (std::size_t i = 0; i < places.size(); ++i) shapes.push_back(reference(kind_of(scene, i), places[i]));
+        const World world = compile(scene);
+        const std::vector<Ray> rays = rays_around(4000);
+        std::vector<Hit> hits(rays.size());
+        world.geometry().intersect(rays, hits, Coherence::Incoherent);
+        int met = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            double nearest = static_cast<double>(rays[i].t_max);
+            std::uint32_t of = kNone;
+            for (std::uint32_t s = 0; s < shapes.size(); ++s) {
+                const ShapeCrossings crossings = shapes[s].crossings(rays[i].origin, rays[i].direction);
+                for (std::size_t c = 0; c < crossings.count; ++c)
+                    if (crossings.all[c].t > 0.0 && crossings.all[c].t < nearest) {
+                        nearest = crossings.all[c].t;
+                        of = s;
+                    }
+            }
+            ASSERT_EQ(hits[i].instance, of) << i;
+            if (of == kNone) continue;
+            ++met;
+            EXPECT_NEAR(static_cast<double>(hits[i].t), nearest, 1e-5 * (1.0 + nearest));
+            const SurfacePoint point = world.geometry().surface_point(hits[i]);
+            EXPECT_LT(length(point.position - rays[i].origin - rays[i].direction * hits[i].t), 2e-5f);
+            EXPECT_NEAR(length(point.geometric_normal), 1.0f, 1e-5f);
+            EXPECT_EQ(point.shading.normal, point.geometric_normal);
+        }
+        EXPECT_GT(met, 500);
+    }
+}
+
+TEST(Shapes, AreMetAlikeByAllQueries) {
+    std::vector<Mat4f> places;
+    MaterialDesc veil = diffuse(Rgb(0.5f));
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.base_alpha = 0.5f;
+    for (const bool are_instanced : {false, true}) {
+        const World world = compile(scene_of_shapes(are_instanced, places, veil));
+        const std::vector<Ray> rays = rays_around(1000);
+        std::vector<Hit> single(rays.size());
+        world.geometry().intersect(rays, single, Coherence::Incoherent, QueryForm::Single);
+        for (const QueryForm form : {QueryForm::Packet8, QueryForm::Packet16})
+            for (const Coherence coherence : {Coherence::Coherent, Coherence::Incoherent}) {
+                std::vector<Hit> hits(rays.size());
+                world.geometry().intersect(rays, hits, coherence, form);
+                std::vector<std::uint8_t> occluded(rays.size());
+                world.geometry().occluded(rays, occluded, form);
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    ASSERT_EQ(hits[i].instance, single[i].instance) << i;
+                    if (hits[i].valid()) {
+                        EXPECT_EQ(hits[i].t, single[i].t);
+                        EXPECT_EQ(hits[i].triangle, single[i].triangle);
+                    }
+                    EXPECT_EQ(occluded[i], hits[i].valid() ? kOccluded : kFree) << i;
+                }
+            }
+    }
+}
+
+// Whichever way a ray leaves a point, it meets no shape there; through a ball it meets the other side.
+TEST(Shapes, NeverMeetTheRaysThatLeaveThem) {
+    for (const float away : {0.0f, 1000.0f})
+        for (const bool are_instanced : {false, true}) {
+            std::vector<Mat4f> places;
+            SceneDesc scene = scene_of_shapes(are_instanced, places);
+            for (InstanceDesc& instance : scene.instances) instance.to_world[3][0] += away;
+            const World world = compile(scene);
+            std::vector<Ray> rays = rays_around(4000);
+            Random random(8);
+            for (Ray& ray : rays) ray.origin.x += away;
+            for (const Ray& ray : rays) {
+                const Hit hit = intersect(world, ray);
+                if (!hit.valid()) continue;
+                const SurfacePoint point = world.geometry().surface_point(hit);
+                for (int way = 0; way < 4; ++way) {
+                    Ray next;
+                    next.direction = random_direction(random);
+                    // Half of them graze.
+                    if (way % 2 == 0) next.direction = normalize(point.shading.tangent + next.direction * 1e-3f);
+                    next.origin =
+                        offset_origin(point.position, point.geometric_normal, point.clearance, next.direction);
+                    const Hit other = intersect(world, next);
+                    if (!other.valid() || other.instance != hit.instance) continue;
+                    // Only of what is closed and from within.
+                    const ShapeKind kind = kind_of(scene, hit.instance);
+                    ASSERT_FALSE(is_flat(kind));
+                    ASSERT_LT(dot(next.direction, point.geometric_normal), 0.0f);
+                }
+            }
+        }
+}
+
+// Alpha 1/2 lets rays pass each of the two sides of a ball with this chance, independently.
+TEST(Shapes, LetRaysPassEachOfTheirSidesByItself) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc veil = diffuse(Rgb(0.5f));
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.base_alpha = 0.5f;
+    add_object(scene, exact(ShapeKind::Sphere, Vec3f(1.0f)), add_material(scene, veil));
+    const World world = compile(scene);
+    constexpr int kRays = 4000;
+    int passed = 0;
+    int front = 0;
+    for (int i = 0; i < kRays; ++i) {
+        Ray ray{.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
+        ray.alpha_key = static_cast<std::uint32_t>(i) * 7919u;
+        const Hit hit = intersect(world, ray);
+        if (!hit.valid()) ++passed;
+        if (hit.valid() && hit.t < 5.0f) ++front;
+        EXPECT_EQ(occluded(world, ray), hit.valid());
+    }
+    // Six standard deviations.
+    EXPECT_NEAR(passed, kRays / 4, 165);
+    EXPECT_NEAR(front, kRays / 2, 190);
+}
+
+TEST(Shapes, MoveWithTheirInstances) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, exact(ShapeKind::Sphere, Vec3f(1.0f)), add_material(scene, diffuse(Rgb(0.5f))));
+    scene.instances[0].motion = {translation({-1.0f, 0.0f, 0.0f}), translation({1.0f, 0.0f, 0.0f})};
+    const World world = compile(scene);
+    for (const float time : {0.0f, 0.25f, 1.0f}) {
+        const float x = 2.0f * time - 1.0f;
+        const Ray ray{.origin = {x, 0.3f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}, .time = time};
+        const Hit hit = intersect(world, ray);
+        ASSERT_TRUE(hit.valid());
+        const SurfacePoint point = world.geometry().surface_point(hit);
+        const Vec3f expected(0.0f, 0.3f, std::sqrt(1.0f - 0.09f));
+        EXPECT_LT(length(point.geometric_normal - expected), 1e-5f) << time;
+        EXPECT_LT(length(point.position - expected - Vec3f(x, 0.0f, 0.0f)), 1e-5f) << time;
+    }
+}
+
+// Where a tessellation of the same ball has its tangents, generated from its texture coordinates.
+TEST(Shapes, HaveTheTangentsOfTheirTexture) {
+    const auto texture_file = temporary_file("shape_normals.png");
+    for (const bool mirrored : {false, true}) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc bumpy = diffuse(Rgb(0.5f));
+        const auto texture = add_texture(scene, texture_file, 1, {{200, 160, 220, 255}});
+        bumpy.normal_texture.texture = texture;
+        const auto material = add_material(scene, bumpy);
+        const Mat4f to_world = scaling({mirrored ? -1.0f : 1.0f, 1.0f, 1.0f});
+        add_object(scene, exact(ShapeKind::Rectangle, Vec3f(1.0f)), material, to_world);
+        // The rectangle's front is towards -z: u along -x, v against y.
+        add_object(scene, quad({0.0f, 0.0f, 3.0f}, {-1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), material, to_world);
+        const World world = compile(scene);
+        Vec3f normals[2];
+        for (int i = 0; i < 2; ++i) {
+            const Ray ray{.origin = {0.3f, 0.4f, i == 0 ? -2.0f : 1.5f}, .direction = {0.0f, 0.0f, 1.0f}};
+            const Hit hit = intersect(world, ray);
+            ASSERT_TRUE(hit.valid());
+            const SurfacePoint point = world.geometry().surface_point(hit);
+            normals[i] = point.shading.normal;
+            EXPECT_GT(std::abs(point.shading.normal.x), 0.1f);
+            EXPECT_NEAR(point.uv[0].y, 0.3f, 1e-5f);
+            EXPECT_NEAR(point.uv[0].x, mirrored ? 0.65f : 0.35f, 1e-5f);
+        }
+        EXPECT_LT(length(normals[0] - normals[1]), 1e-5f) << mirrored;
+    }
+}
+
+TEST(Shapes, AreRefusedByOtherAccelerators) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, exact(ShapeKind::Sphere, Vec3f(1.0f)), add_material(scene, diffuse(Rgb(0.5f))));
+    const World world = compile(scene);
+    try {
+        static_cast<void>(world.geometry().accelerate(AcceleratorKind::Bvh));
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("\"shapes\""), std::string::npos) << error.what();
+    }
+}
+
+TEST(Shapes, EncloseBodiesIfTheyAreNotFlat) {
+    for (const ShapeKind kind : kShapes) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc glass;
+        glass.override_model = DielectricDesc{};
+        add_object(scene, exact(kind, Vec3f(1.0f)), add_material(scene, glass));
+        ProblemList problems;
+        const World world = compile(scene, "Linear Rec.709 (sRGB)", problems);
+        EXPECT_TRUE(world.traits().has_bodies);
+        EXPECT_EQ(problems.all().size(), is_flat(kind) ? 1u : 0u) << shape_name(kind);
+    }
+}
+
+TEST(Shapes, AreSampledLightsUnlessTheyAreUneven) {
+    SceneDesc scene = empty_scene();
+    const auto lamp = add_material(scene, emissive(Rgb(1.0f)));
+    add_object(scene, exact(ShapeKind::Sphere, Vec3f(1.0f)), lamp, scaling(Vec3f(3.0f)));
+    add_object(scene, exact(ShapeKind::Disk, {1.0f, 2.0f, 1.0f}), lamp, translation({9.0f, 0.0f, 0.0f}));
+    add_object(scene, exact(ShapeKind::Cylinder, {1.0f, 2.0f, 1.0f}), lamp, translation({0.0f, 9.0f, 0.0f}));
+    ProblemList problems;
+    const World even = compile(scene, "Linear Rec.709 (sRGB)", problems);
+    EXPECT_EQ(even.lights().count(), 3u);
+    EXPECT_FALSE(even.traits().has_unsampled_emitters);
+    EXPECT_TRUE(problems.all().empty());
+    add_object(scene, exact(ShapeKind::Sphere, {1.0f, 2.0f, 1.0f}), lamp, translation({-9.0f, 0.0f, 0.0f}));
+    const World uneven = compile(scene, "Linear Rec.709 (sRGB)", problems);
+    EXPECT_EQ(uneven.lights().count(), 3u);
+    EXPECT_TRUE(uneven.traits().has_unsampled_emitters);
+    EXPECT_EQ(problems.all().size(), 1u);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
