@@ -172,8 +172,8 @@ TEST(Shapes, LetRaysPassEachOfTheirSidesByItself) {
         EXPECT_EQ(occluded(world, ray), hit.valid());
     }
     // Six standard deviations.
-    EXPECT_NEAR(passed, kRays / 4, 165);
-    EXPECT_NEAR(front, kRays / 2, 190);
+    EXPECT_NEAR(passed, 0.25 * kRays, 165.0);
+    EXPECT_NEAR(front, 0.5 * kRays, 190.0);
 }
 
 TEST(Shapes, MoveWithTheirInstances) {
