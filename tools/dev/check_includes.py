@@ -53,7 +53,7 @@ ROOMS = {
     "compare": "session process picture report metrics output render processor integrator film world texture color image "
     "loader core",
     "profile": "session process picture report render integrator wave world accelerator scene core",
-    "live": "session process picture output render processor integrator film world loader scene color image core",
+    "live": "batch session process picture report output render processor integrator film world loader scene color image core",
     "cli": "live profile compare farm batch session process picture denoise report metrics output render processor film world "
     "color image loader core",
 }
