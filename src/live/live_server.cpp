@@ -97,9 +97,9 @@ struct LiveServer::Impl {
         LiveRequest asked{.is_post = request.method == "POST", .path = request.path.substr(secret.size() + 2)};
         for (const auto& [name, value] : request.params) asked.query.emplace(name, value);
         asked.body = request.body;
-        LiveAnswer answer = handler(asked);
+        const LiveAnswer answer = handler(asked);
         response.status = answer.status;
-        response.set_content(std::move(answer.body), answer.type.c_str());
+        response.set_content(answer.body, answer.type);
     }
 };
 

@@ -284,7 +284,8 @@ class SceneRender {
         std::optional<Checkpoint> kept;
         if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
         if (!kept) kept = checkpoints_.read(expected, request_.quiet);
-        if (!kept && !is_partial(output_)) kept = read_sums(sums_path(output_), expected, options_.spp, request_.quiet);
+        if (!kept && !is_partial(output_))
+            kept = read_sums(sums_path(output_), expected, static_cast<int>(options_.spp), request_.quiet);
         return kept;
     }
 

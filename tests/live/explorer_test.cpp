@@ -122,7 +122,7 @@ TEST(Explorer, ShowsWhatItsCommandRenders) {
 TEST(Explorer, GivesBothImagesEqualTime) {
     AtWork work;
     work.explorer().choose(1, {.is_shown = true, .integrator = "bdpt", .max_depth = 8, .more = ""});
-    ASSERT_TRUE(work.wait_for(1, 64));
+    ASSERT_TRUE(work.wait_for(1, 64) && work.wait_for(0, 64));
     const auto sides = work.explorer().sides();
     // A pass takes a fifth of a second at most, in each of two threads.
     EXPECT_LT(std::abs(sides[0].cpu_seconds - sides[1].cpu_seconds), 0.5);
