@@ -66,19 +66,19 @@ class Reader {
         return value;
     }
     std::string text() {
-        const std::string text(bytes_.c_str() + at_);
+        std::string text(bytes_.c_str() + at_);
         at_ += text.size() + 1;
         return text;
     }
     std::vector<std::string> texts(std::int32_t count) {
-        std::vector<std::string> all;
-        for (std::int32_t i = 0; i < count; ++i) all.push_back(text());
+        std::vector<std::string> all(static_cast<std::size_t>(count));
+        for (std::string& each : all) each = text();
         return all;
     }
     template <typename Number>
     std::vector<Number> numbers(std::size_t count) {
-        std::vector<Number> all;
-        for (std::size_t i = 0; i < count; ++i) all.push_back(number<Number>());
+        std::vector<Number> all(count);
+        for (Number& each : all) each = number<Number>();
         return all;
     }
     [[nodiscard]] std::size_t at() const { return at_; }
