@@ -77,11 +77,12 @@ bool would_fail_here(const LedgerHistory::Entry& failure, const std::string& hos
 }  // namespace
 
 BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tasks, LedgerHistory& history,
-                         BatchProgress& progress)
+                         BatchProgress& progress, BatchWatcher* watcher)
     : options_(options),
       tasks_(std::move(tasks)),
       history_(history),
       progress_(progress),
+      watcher_(watcher),
       books_(options.output),
       locks_(options.output) {
     if (options.in_process) threads_.emplace(options.threads);
@@ -454,10 +455,13 @@ void BatchRunner::wait_for_others(const std::vector<std::size_t>& held) {
 }
 
 void BatchRunner::write_reports(bool in_any_case) {
-    if (!in_any_case && !books_.are_reports_due()) return;
+    const bool is_due = in_any_case || books_.are_reports_due();
+    const bool is_wanted = watcher_ != nullptr && (in_any_case || watcher_->wants_report());
+    if (!is_due && !is_wanted) return;
     report_.seconds = seconds_since(start_);
     report_.written = utc_time();
-    books_.write_reports(report_);
+    if (is_wanted) watcher_->show(report_);
+    if (is_due) books_.write_reports(report_);
 }
 
 void BatchRunner::tidy() const {

@@ -8,6 +8,7 @@
 #include "batch/batch_options.h"
 #include "batch/batch_plan.h"
 #include "batch/batch_progress.h"
+#include "batch/batch_watcher.h"
 #include "core/parallel.h"
 #include "report/batch_report.h"
 
@@ -24,9 +25,10 @@ namespace etendue {
 
 class BatchRunner {
   public:
-    /// `options`, `history` and `progress` outlive it. A report of images of which nothing is known is written.
+    /// `options`, `history`, `progress` and `watcher`, which may be null, outlive it. A report of images of which
+    /// nothing is known is written.
     BatchRunner(const BatchOptions& options, std::vector<BatchTask> tasks, LedgerHistory& history,
-                BatchProgress& progress);
+                BatchProgress& progress, BatchWatcher* watcher = nullptr);
 
     /// Makes the plan. Ends early when it is interrupted.
     const BatchPlan& plan();
@@ -79,6 +81,7 @@ class BatchRunner {
     BatchPlan plan_{};
     LedgerHistory& history_;
     BatchProgress& progress_;
+    BatchWatcher* watcher_;  ///< null if nobody looks on
     BatchBooks books_;
     BatchLocks locks_;
     std::optional<ThreadPool> threads_{};  ///< if images are rendered in this process

@@ -12,6 +12,7 @@
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/standard_output.h"
+#include "live/batch_live_page.h"
 #include "picture/output_paths.h"
 #include "process/process_limits.h"
 #include "process/run_command.h"
@@ -23,6 +24,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -117,7 +119,8 @@ ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, cons
     return totals(plan).failing > 0 ? ExitCode::InvalidScene : ExitCode::Success;
 }
 
-ExitCode run_batch(const BatchOptions& options) {
+/// Shows the batch on a page of the port `live`, unless that is none.
+ExitCode run_batch(const BatchOptions& options, const std::optional<int>& live) {
     check_options(options.overrides);
     if (!options.name_pattern.empty()) check_name_pattern(options.name_pattern);
     const bool needs_times = options.order == BatchOrder::Shortest || options.order == BatchOrder::Longest;
@@ -141,7 +144,9 @@ ExitCode run_batch(const BatchOptions& options) {
     }
     if (options.dry_run) return run_dry(std::move(tasks), options, history, progress);
     prepare_output(options.output);
-    BatchRunner runner(options, std::move(tasks), history, progress);
+    std::optional<BatchLivePage> page;
+    if (live) page.emplace(*live);
+    BatchRunner runner(options, std::move(tasks), history, progress, page ? &*page : nullptr);
     const BatchPlan& plan = runner.plan();
     if (interrupt_requested()) {
         progress.say("interrupted before anything was rendered");
@@ -252,7 +257,9 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
 void add_batch_command(CLI::App& app, Action& action) {
     auto options = std::make_shared<BatchOptions>();
     CLI::App* command = app.add_subcommand("batch", "Render every scene directory below some directories");
+    auto live = std::make_shared<std::string>();
     add_own_options(*command, *options);
+    add_live_option(*command, *live, "Show the batch in a browser: its table, and images as they are finished");
     const std::size_t own = command->get_options().size();
     add_settings_options(*command, options->overrides);
     add_png_option(*command, options->overrides);
@@ -261,7 +268,7 @@ void add_batch_command(CLI::App& app, Action& action) {
     set_group(*command, "How they are made",
               {"--threads", "--dry-run", "--no-probe", "--retries", "--checkpoint-every", "--stall-minutes",
                "--in-process", "--max-memory", "--denoise", "--keep-sums", "--no-keep-sums"});
-    set_group(*command, "What is said", {"--log", "--on-finish", "--quiet", "--json"});
+    set_group(*command, "What is said", {"--live", "--log", "--on-finish", "--quiet", "--json"});
     for (const auto& [one, other] : {std::pair("--variants", "--variant"), std::pair("--cameras", "--camera"),
                                      std::pair("--denoise", "--in-process")})
         command->get_option(one)->excludes(command->get_option(other));
@@ -276,12 +283,13 @@ void add_batch_command(CLI::App& app, Action& action) {
         "Examples:\n"
         "  etendue batch scenes -o out --quality draft\n"
         "  etendue batch scenes -o out --dry-run\n"
+        "  etendue batch scenes -o out --live\n"
         "  etendue batch shots/a shots/b -o /renders --spp 512 --force --max-memory 16G\n"
         "  etendue batch characters -o turntables --frames 0:47 --animation Walk\n"
         "  etendue batch products -o catalogue --variants --cameras all --name '{scene}/{variant}-{camera}'\n"
         "  etendue batch scenes -o out --failed --exclude 'tests/*' --log night.log --on-finish 'mail -s done me'\n"
         "  etendue batch scenes -o out --json --quiet > summary.json");
-    command->callback([options, command, own, &action] {
+    command->callback([options, live, command, own, &action] {
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
         options->command = command_line("etendue batch", given_options(all));
         options->given = given_options(std::span(all).subspan(own));
@@ -290,7 +298,7 @@ void add_batch_command(CLI::App& app, Action& action) {
             options->given.push_back({"--aov", "denoising"});
         }
         if (!options->output.has_filename()) options->output = options->output.parent_path();
-        action = [options] { return run_batch(*options); };
+        action = [options, live] { return run_batch(*options, live_port(*live)); };
     });
 }
 

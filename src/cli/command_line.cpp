@@ -35,6 +35,7 @@ std::unique_ptr<CLI::App> make_command_line(Action& action) {
         "Examples:\n"
         "  etendue render scenes/cornell-box\n"
         "  etendue batch scenes --quality draft -o out\n"
+        "  etendue live scenes/cornell-box\n"
         "  etendue inspect model.glb\n"
         "  etendue diff box.exr reference.exr --metric flip --map flip.png\n"
         "  etendue view box.exr -o box.png --exposure 1\n"
@@ -46,6 +47,7 @@ std::unique_ptr<CLI::App> make_command_line(Action& action) {
         "'etendue help COMMAND' tells more.");
     add_render_command(*app, action);
     add_batch_command(*app, action);
+    add_live_command(*app, action);
     add_inspect_command(*app, action);
     add_denoise_command(*app, action);
     add_diff_command(*app, action);

@@ -1,9 +1,17 @@
 #include "cli/command_options.h"
 
+#include <charconv>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace etendue {
+
+namespace {
+
+constexpr const char* kFreePort = "free";
+
+}  // namespace
 
 std::vector<GivenOption> given_options(std::span<const CLI::Option* const> options) {
     std::vector<GivenOption> given;
@@ -17,6 +25,29 @@ std::vector<GivenOption> given_options(std::span<const CLI::Option* const> optio
             for (const std::string& value : option->results()) given.push_back({name, value});
     }
     return given;
+}
+
+void add_live_option(CLI::App& command, std::string& live, const std::string& help) {
+    const CLI::Validator is_port(
+        [](const std::string& text) {
+            return live_port(text) ? std::string() : fmt::format("'{}' is no port from 1 to 65535", text);
+        },
+        "", "port");
+    command
+        .add_flag(
+            fmt::format("--live{{{}}}", kFreePort), live,
+            help +
+                "; a line on stderr has the page's address, of this machine only, and --live=PORT chooses its port "
+                "(docs/live.md)")
+        ->check(is_port);
+}
+
+std::optional<int> live_port(const std::string& live) {
+    if (live == kFreePort) return 0;
+    int port = 0;
+    const auto [end, error] = std::from_chars(live.data(), live.data() + live.size(), port);
+    const bool is_port = error == std::errc{} && end == live.data() + live.size() && port > 0 && port < (1 << 16);
+    return is_port ? std::optional(port) : std::nullopt;
 }
 
 void set_group(CLI::App& command, const std::string& group, std::initializer_list<const char*> options) {

@@ -4,6 +4,7 @@
 #include "session/given_options.h"
 
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,12 @@ namespace etendue {
 
 /// Returns those among `options` that were given, in their order.
 [[nodiscard]] std::vector<GivenOption> given_options(std::span<const CLI::Option* const> options);
+
+/// Adds --live[=PORT], whose text arrives in `live`; `help` says what the page shows.
+void add_live_option(CLI::App& command, std::string& live, const std::string& help);
+
+/// Returns the port that the text of --live asks for, 0 for one that is free; nothing without the option.
+[[nodiscard]] std::optional<int> live_port(const std::string& live);
 
 /// Puts options of the command under one heading of its help.
 void set_group(CLI::App& command, const std::string& group, std::initializer_list<const char*> options);

@@ -17,6 +17,7 @@ using Action = std::function<ExitCode()>;
 // Each adds one subcommand to `app` and sets `action` when it is chosen.
 void add_render_command(CLI::App& app, Action& action);
 void add_batch_command(CLI::App& app, Action& action);
+void add_live_command(CLI::App& app, Action& action);
 void add_inspect_command(CLI::App& app, Action& action);
 void add_denoise_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);

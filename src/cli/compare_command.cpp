@@ -16,6 +16,7 @@
 #include "core/source_date.h"
 #include "core/standard_output.h"
 #include "core/write_file.h"
+#include "live/render_page.h"
 #include "output/software_name.h"
 #include "picture/render_setup.h"
 #include "session/interrupt.h"
@@ -69,6 +70,7 @@ struct CompareArguments {
     std::vector<std::string> inset_classes;
     std::optional<int> longest_strategy;
     bool keep_images = false;
+    std::string live;  ///< as `live_port` reads it
     int threads = 0;
     bool quiet = false;
     bool json = false;
@@ -292,10 +294,13 @@ ExitCode run_compare(const CompareArguments& arguments) {
     require_regions_within(arguments.regions, window);
     require_effective(arguments, variants);
     RequestedReference requested = requested_reference(arguments, variants, colors);
+    std::optional<RenderPage> page;
+    if (const auto port = live_port(arguments.live)) page.emplace(*port);
     const RendersRequest request{.budget = budget_of(arguments, threads),
                                  .seeds = arguments.seeds,
                                  .first_seed = first_seed(arguments, variants, requested),
-                                 .quiet = arguments.quiet};
+                                 .quiet = arguments.quiet,
+                                 .watcher = page ? &*page : nullptr};
     if (!arguments.quiet)
         for (const std::string& note : requested.notes) log_warning("note: {}", note);
     std::vector<std::filesystem::path> inputs;
@@ -306,6 +311,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const MeasureContext context{colors, threads, store};
     const std::vector<NamedRegion> of_classes = class_regions(arguments, requests, variants, context, requested.notes);
     const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
+    if (page) page->enter(interrupt_requested() ? "stopped" : "measure");
     const std::size_t rounds = renders.front().seeds.size();
     if (rounds == 0) return interrupt_exit_code();
 
@@ -355,6 +361,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
         log_info("{}", files[1].string());
     }
     if (arguments.json) print_data(to_json(report));
+    if (page) page->enter(interrupt_requested() ? "stopped" : "finished");
     if (interrupt_requested()) return interrupt_exit_code();
     return report.agrees() ? ExitCode::Success : ExitCode::DiffFailed;
 }
@@ -417,6 +424,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
         ->check(CLI::Range(0, 12));
     command.add_option("--threads", arguments.threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
+    add_live_option(command, arguments.live, "Show each render in a browser as it grows");
     command.add_flag("--quiet", arguments.quiet, "No progress, notes or summary; errors only");
     command.add_flag("--json", arguments.json, "Print report.json on stdout, too");
 }
@@ -449,6 +457,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         "variants. Exit code 1 if variants that show the same light and find all of it do not make the same image.\n\n"
         "Examples:\n"
         "  etendue compare scenes/caustic-glass -o report\n"
+        "  etendue compare scenes/caustic-glass -o report --live\n"
         "  etendue compare scenes/cornell-box --integrators path,bdpt,light --seconds 5 --seeds 8 -o report\n"
         "  etendue compare scenes/caustic-glass --region caustic:105,192,150,216 --reference glass.exr -o report\n"
         "  etendue compare scenes/veach-mis --integrator bdpt --variant 'power: --heuristic power' --variant 'balance: "

@@ -5,6 +5,8 @@
 #include "core/log.h"
 #include "core/standard_output.h"
 #include "farm/probe.h"
+#include "live/render_page.h"
+#include "live/tev_viewer.h"
 #include "loader/files.h"
 #include "picture/aov_setup.h"
 #include "picture/output_paths.h"
@@ -39,6 +41,8 @@ struct RenderArguments {
     bool force = false;
     bool probe = false;
     bool json = false;
+    std::string live;  ///< as `live_port` reads it
+    std::optional<TevAddress> tev;
 };
 
 void report(const std::filesystem::path& output, const RenderStatistics& s) {
@@ -72,11 +76,17 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     const ThreadPool threads(arguments.threads);
     const bool is_sequence = jobs.front().frame.has_value();
     const bool quiet = arguments.job.quiet;
+    std::optional<RenderPage> page;
+    if (const auto port = live_port(arguments.live)) page.emplace(*port);
+    std::optional<TevViewer> tev;
+    if (arguments.tev) tev.emplace(*arguments.tev);
     std::vector<ImageResult> results;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
         ImageJobOptions options = arguments.job;
         options.force = arguments.force || (!is_sequence && !arguments.job.resume);
         if (is_sequence) options.title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
+        if (page) options.watchers.push_back(&*page);
+        if (tev) options.watchers.push_back(&*tev);
         ImageResult result = run_job(jobs[i], options, threads);
         if (!quiet && result.outcome == ImageOutcome::UpToDate)
             log_info("{}: up to date", result.job.output.string());
@@ -219,6 +229,14 @@ void add_render_command(CLI::App& app, Action& action) {
         "--force", arguments->force,
         "Of a sequence or with --resume, render again what is up to date, and replace a part whatever it is; a "
         "checkpoint is gone on with all the same");
+    command->add_option_function<std::string>(
+        "--tev",
+        [arguments](const std::string& text) {
+            arguments->tev = TevAddress::parse(text);
+            if (!arguments->tev) throw CLI::ValidationError("--tev", fmt::format("'{}' is no HOST:PORT", text));
+        },
+        "Send the image as it grows, with its layers, to the viewer tev that listens at HOST:PORT (docs/live.md)");
+    add_live_option(*command, arguments->live, "Show the image in a browser as it grows");
     command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
     command->footer(
@@ -231,6 +249,8 @@ void add_render_command(CLI::App& app, Action& action) {
         "that is reached ends the render.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box -o box.exr\n"
+        "  etendue render scenes/cornell-box --live\n"
+        "  etendue render scenes/cornell-box --tev 127.0.0.1:14158\n"
         "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
         "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
         "  etendue render model.glb --display 'Display P3 - Display' --look 'ACES 1.3 Reference Gamut Compression'\n"

@@ -122,10 +122,6 @@ ImageLayer chosen_layer(const LayeredImage& image, const ViewArguments& argument
 
 // ---- Layers of numbers.
 
-bool ends_with_id(std::string_view name) {
-    return name == "id" || name == "ID" || name.ends_with("_id") || name.ends_with("Id") || name.ends_with("ID");
-}
-
 bool is_colors(const ImageLayer& layer, bool is_matte, const ViewArguments& arguments) {
     if (!arguments.input_space.empty() && layer.channels.size() >= 3) return true;
     return (layer.kind == LayerKind::Color || layer.kind == LayerKind::Luminance) && !is_matte;
@@ -133,7 +129,7 @@ bool is_colors(const ImageLayer& layer, bool is_matte, const ViewArguments& argu
 
 DataStyle style_of(const ImageLayer& layer, bool is_matte, const ImageF& image) {
     if (is_matte) return DataStyle::Mattes;
-    if (layer.kind == LayerKind::Single && (layer.is_integer || ends_with_id(layer.name))) return DataStyle::Ids;
+    if (layer.kind == LayerKind::Single && (layer.is_integer || names_ids(layer.name))) return DataStyle::Ids;
     return style_of_values(image);
 }
 

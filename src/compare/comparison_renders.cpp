@@ -1,5 +1,6 @@
 #include "compare/comparison_renders.h"
 
+#include "core/process_time.h"
 #include "film/median_of_means.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
@@ -8,6 +9,7 @@
 #include "session/progress_display.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -46,12 +48,18 @@ constexpr double kCalibrationShare = 0.1;
 class TimedRender {
   public:
     TimedRender(const Variant& variant, std::uint32_t seed, const ThreadPool& threads, const RenderBudget& budget,
-                const std::string& title, bool quiet)
-        : budget_(budget),
+                const std::string& title, bool quiet, RenderWatcher* watcher = nullptr)
+        : variant_(variant),
+          watcher_(watcher),
+          budget_(budget),
           area_(variant.sampling.window.area()),
           aovs_(variant.sampling.aovs),
           render_(*variant.world, *variant.integrator, with_seed(variant.sampling, seed), threads),
-          display_(title, quiet) {}
+          display_(title, quiet) {
+        if (watcher_ == nullptr) return;
+        watcher_->begin(title, {});
+        watcher_->enter("render");
+    }
 
     /// One more pass, up to `last` samples. False if the time is spent, the samples are taken, or it is interrupted.
     bool advance(std::uint32_t last) {
@@ -62,10 +70,12 @@ class TimedRender {
         const bool done = render_.add_samples(count, [] { return interrupt_requested().load(); });
         const double fraction = budget_.seconds ? time() / *budget_.seconds : double(spp()) / double(*budget_.spp);
         // Written so that no fraction at all, as of no time, is 1.
-        display_.update({.fraction = fraction < 1.0 ? fraction : 1.0,
-                         .seconds = seconds(),
-                         .samples = area_ * spp(),
-                         .rays = state().counters.rays.total()});
+        const RenderProgress progress{.fraction = fraction < 1.0 ? fraction : 1.0,
+                                      .seconds = seconds(),
+                                      .samples = area_ * spp(),
+                                      .rays = state().counters.rays.total()};
+        display_.update(progress);
+        if (watcher_ != nullptr) show(progress);
         return done;
     }
 
@@ -84,6 +94,30 @@ class TimedRender {
         return options;
     }
 
+    /// Shows the image, between passes, whose time alone is counted.
+    void show(const RenderProgress& progress) {
+        constexpr double kSecondsBetween = 0.5;
+        watcher_->update(progress);
+        if (!watcher_->wants_image() || seconds_since(shown_) < kSecondsBetween) return;
+        const ColorSettings& color = variant_.settings.color;
+        ImageDescription now;
+        now.frame.pixels = image();
+        now.frame.working_space = color.working_space;
+        now.frame.display = color.display;
+        now.frame.view = color.view;
+        now.frame.look = color.look;
+        now.frame.exposure = color.exposure;
+        now.frame.integrator = variant_.settings.integrator.type;
+        now.frame.spp = static_cast<int>(spp());
+        now.frame.render_seconds = seconds();
+        now.statistics.spp_requested = static_cast<int>(budget_.spp.value_or(0));
+        watcher_->show(now);
+        shown_ = std::chrono::steady_clock::now();
+    }
+
+    const Variant& variant_;
+    RenderWatcher* watcher_;  ///< null for nobody
+    std::chrono::steady_clock::time_point shown_{};
     RenderBudget budget_;
     std::uint64_t area_;
     std::shared_ptr<const AovSet> aovs_;
@@ -114,7 +148,7 @@ std::optional<std::vector<std::uint32_t>> calibrated_samples(std::span<const Var
         for (std::size_t v = 0; v < variants.size(); ++v) {
             TimedRender render(variants[v], request.first_seed, threads, budget,
                                fmt::format("{} calibration {}/{}", variants[v].name, round + 1, kCalibrations),
-                               request.quiet);
+                               request.quiet, request.watcher);
             if (!render_in_steps(render, [] {})) return std::nullopt;
             samples_per_second[v].push_back(render.spp() / render.time());
         }
@@ -157,7 +191,8 @@ std::vector<VariantRenders> render_variants(std::span<const Variant> variants, c
             SeedRender result{.seed =
                                   render_seed(request.first_seed, static_cast<std::size_t>(seed), v, variants.size())};
             TimedRender render(variants[v], result.seed, threads, {.spp = samples[v]},
-                               fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds), request.quiet);
+                               fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds), request.quiet,
+                               request.watcher);
             if (!keep_images(render, store, result)) {
                 for (VariantRenders& of_variant : renders) of_variant.seeds.resize(static_cast<std::size_t>(seed));
                 return renders;

@@ -4,6 +4,7 @@
 #include "compare/comparison_variants.h"
 #include "compare/image_store.h"
 #include "core/parallel.h"
+#include "session/render_watcher.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,7 @@ struct RendersRequest {
     int seeds = 1;
     std::uint32_t first_seed = 0;
     bool quiet = false;
+    RenderWatcher* watcher = nullptr;  ///< gets images between passes, and outlives the renders; null for nobody
 };
 
 /// The seed of a variant's render with number `render`, of `variants` that are rendered: no two renders have the same,

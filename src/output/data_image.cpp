@@ -108,6 +108,10 @@ DataPicture show_range(const ImageF& image, const std::optional<DataRange>& told
 
 }  // namespace
 
+bool names_ids(std::string_view layer) {
+    return layer == "id" || layer == "ID" || layer.ends_with("_id") || layer.ends_with("Id") || layer.ends_with("ID");
+}
+
 DataStyle style_of_values(const ImageF& image) {
     if (image.channels < 2) return DataStyle::Range;
     const auto is_signed_unit = [](float value) { return !(std::abs(value) > 1.0f + kSlack); };

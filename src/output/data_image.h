@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace etendue {
 
@@ -29,6 +30,9 @@ struct DataPicture {
 
 /// Values from here on stand for "nothing was hit" in depths, and are no part of a range.
 inline constexpr float kFarAway = 1e10f;
+
+/// Returns true for a layer whose name says that it holds ids: "id", or one that ends in "_id", "Id" or "ID".
+[[nodiscard]] bool names_ids(std::string_view layer);
 
 /// `Signed` for several channels that are all from -1 to 1, else `Range`.
 [[nodiscard]] DataStyle style_of_values(const ImageF& image);

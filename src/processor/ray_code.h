@@ -15,6 +15,7 @@ namespace etendue {
 struct RayCode {
     InstructionSet instruction_set;
     decltype(&etendue::compile_world) compile_world;
+    decltype(&etendue::with_camera) with_camera;
     decltype(&etendue::make_integrator) make_integrator;
     decltype(&etendue::run_pilot) run_pilot;
 };

@@ -17,6 +17,6 @@ constexpr InstructionSet kCompiledFor = InstructionSet::Sse4;
 
 }  // namespace
 
-constinit const RayCode ray_code_here{kCompiledFor, &compile_world, &make_integrator, &run_pilot};
+constinit const RayCode ray_code_here{kCompiledFor, &compile_world, &with_camera, &make_integrator, &run_pilot};
 
 }  // namespace etendue

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/pixel_rect.h"
+#include "core/vec.h"
 #include "scene/accelerator_kind.h"
 #include "scene/aov_desc.h"
 #include "scene/integrator_settings.h"
@@ -123,6 +124,13 @@ struct MetadataSettings {
 /// Stands in `RenderSettings::animations` for no animation.
 inline constexpr std::string_view kNoAnimation = "none";
 
+/// Places a camera, in the world that the scene's file describes.
+struct CameraPlace {
+    Vec3d eye{0.0};
+    Vec3d target{0.0, 0.0, -1.0};  ///< what it looks at, elsewhere than `eye`
+    Vec3d up{0.0, 1.0, 0.0};       ///< which way is up in the image, not along the view
+};
+
 struct RenderSettings {
     IntegratorSettings integrator{.type = std::string(kAutoIntegrator)};
     SamplerType sampler = SamplerType::Sobol;
@@ -136,7 +144,8 @@ struct RenderSettings {
     bool adaptive = true;         ///< with a relative error: pixels get samples as they need them
     int min_spp = 48;             ///< samples that every pixel gets before, [1, 2^24]
     std::string camera;           ///< name of the camera or of its node; empty for the first
-    std::string scene_name;       ///< which of the scene file's scenes; empty for the file's default
+    std::optional<CameraPlace> camera_place;  ///< of that camera, in place of its node's; it then stands still
+    std::string scene_name;                   ///< which of the scene file's scenes; empty for the file's default
     std::string variant;  ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is
     std::optional<FrameRange> frames;  ///< a sequence; none for one image

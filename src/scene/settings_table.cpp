@@ -84,6 +84,12 @@ SettingValue to_value(const std::vector<std::string>& value) {
 SettingValue to_value(const Shutter& value) {
     return std::vector{value.open, value.close};
 }
+SettingValue to_value(const CameraPlace& value) {
+    std::vector<double> numbers;
+    for (const Vec3d& v : {value.eye, value.target, value.up}) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+    if (value.up == CameraPlace{}.up) numbers.resize(6);
+    return numbers;
+}
 SettingValue to_value(const FrameRange& value) {
     std::vector<std::int64_t> numbers{value.first, value.last};
     if (value.step != 1) numbers.push_back(value.step);
@@ -108,6 +114,12 @@ Held from_value(const SettingValue& value) {
         const auto& times = std::get<std::vector<double>>(value);
         return {static_cast<double>(static_cast<float>(times.at(0))),
                 static_cast<double>(static_cast<float>(times.at(1)))};
+    } else if constexpr (std::is_same_v<Held, CameraPlace>) {
+        const auto& numbers = std::get<std::vector<double>>(value);
+        const auto vector = [&](std::size_t i) { return Vec3d(numbers.at(i), numbers.at(i + 1), numbers.at(i + 2)); };
+        CameraPlace place{.eye = vector(0), .target = vector(3)};
+        if (numbers.size() > 6) place.up = vector(6);
+        return place;
     } else if constexpr (std::is_same_v<Held, Strategy>) {
         return parse_strategy(std::get<std::string>(value)).value();
     } else if constexpr (std::is_same_v<Held, FrameRange>) {
@@ -217,6 +229,16 @@ bool is_window(std::span<const double> numbers) {
     return numbers[0] < numbers[2] && numbers[1] < numbers[3];
 }
 
+/// Three numbers for each of eye, target and, if it is given, up.
+bool is_camera_place(std::span<const double> numbers) {
+    if (numbers.size() % 3 != 0) return false;
+    const auto vector = [&](std::size_t i) { return Vec3d(numbers[i], numbers[i + 1], numbers[i + 2]); };
+    const Vec3d view = vector(3) - vector(0);
+    const Vec3d up = numbers.size() > 6 ? vector(6) : CameraPlace{}.up;
+    constexpr double kLeastSine = 1e-6;  // beyond what single precision tells apart
+    return view.length() > 0.0 && view.normalized().cross(up).length() > kLeastSine * up.length();
+}
+
 constexpr SettingPlace kResolutionPlace{
     [](const RenderSettings& settings) -> SettingValue {
         return std::vector<std::int64_t>{settings.film.width, settings.film.height};
@@ -298,6 +320,20 @@ constexpr std::array kRows{
             .default_text = "the first of the file",
             .help = "Name of the camera, or of its node",
             .place = at([](auto& s) -> auto& { return s.camera; })},
+    Setting{.pointer = "/camera_place",
+            .option = "--camera-place",
+            .type = RealNumbers{{},
+                                6,
+                                9,
+                                ',',
+                                "ex,ey,ez,tx,ty,tz[,ux,uy,uz]",
+                                "e unlike t, and u (default: 0,1,0) not along the view",
+                                is_camera_place},
+            .decides = Decides::Samples,
+            .unit = "metres",
+            .default_text = "where the scene has it",
+            .help = "Place the camera at e, looking at t, with u (default: 0,1,0) upwards",
+            .place = at([](auto& s) -> auto& { return s.camera_place; })},
     Setting{.pointer = "/scene_name",
             .option = "--scene",
             .type = Name{},

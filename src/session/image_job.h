@@ -62,6 +62,7 @@ struct ImageJobOptions {
     std::string title{};                         ///< before the progress bar
     std::string command{};                       ///< as in SceneRenderRequest
     const std::atomic<bool>* is_lost = nullptr;  ///< as in SceneRenderRequest
+    std::vector<RenderWatcher*> watchers{};      ///< the same
 };
 
 /// Renders the image unless it is up to date. Throws what `prepare_scene` and `render_scene` throw.

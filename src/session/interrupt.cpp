@@ -42,6 +42,15 @@ const std::atomic<bool>& interrupt_requested() {
     return requested;
 }
 
+void request_interrupt() {
+    int none = 0;
+    if (signal_number.compare_exchange_strong(none, SIGINT)) requested.store(true);
+}
+
+void request_preview() {
+    preview.store(true);
+}
+
 bool preview_requested() {
     return preview.load(std::memory_order_relaxed);
 }

@@ -18,6 +18,12 @@ void take_all_interrupts_for_one();
 /// Becomes true when a signal has arrived.
 [[nodiscard]] const std::atomic<bool>& interrupt_requested();
 
+/// Does what SIGINT does when it arrives for the first time, and nothing after any signal.
+void request_interrupt();
+
+/// Does what SIGUSR1 does.
+void request_preview();
+
 /// True after SIGUSR1, until it is cleared.
 [[nodiscard]] bool preview_requested();
 void clear_preview_request();

@@ -29,10 +29,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -60,6 +62,35 @@ void fill_texture_statistics(const World& world, RenderStatistics& s) {
                   from.first_texture_failure);
 }
 
+/// Says when the image may be shown again, so that showing it takes a tenth of the time at most, as long as one looks.
+class ShowingTimes {
+  public:
+    /// Returns true if the image may be shown. Safe to call from rendering threads.
+    [[nodiscard]] bool is_due() const { return !is_showing_ && Clock::now() >= next_.load(); }
+    /// Called when what is rendered is about to be shown.
+    void begin() {
+        begun_ = Clock::now();
+        is_showing_ = true;
+    }
+    /// Called when tiles have been finished; of calls after `begin` the first counts. All that came before belongs to
+    /// the price of showing, as what a stopped pass has to do again.
+    void go_on() {
+        if (!is_showing_) return;
+        const Clock::duration cost = Clock::now() - begun_;
+        next_ = Clock::now() + std::max<Clock::duration>(kLeast, 9 * cost);
+        is_showing_ = false;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds kFirst{50};  ///< from the beginning, so that there is something to show
+    static constexpr std::chrono::milliseconds kLeast{200};
+
+    Clock::time_point begun_{};
+    std::atomic<Clock::time_point> next_{Clock::now() + kFirst};
+    std::atomic<bool> is_showing_{false};
+};
+
 /// One render, step by step.
 class SceneRender {
   public:
@@ -72,7 +103,9 @@ class SceneRender {
           paths_(OutputPaths::beside(output_, request.overrides.png)),
           checkpoints_(output_),
           progress_pipe_(request.progress_descriptor) {
-        progress_pipe_.enter("load");
+        for (RenderWatcher* const watcher : request_.watchers)
+            watcher->begin(request_.title.empty() ? scene_.name : request_.title, output_);
+        enter("load");
         if (!is_partial(output_)) image_module_ = load_image_module_early();
         report_problems();
         // Before names are resolved: batch compares it with that of a scene that was only prepared.
@@ -117,6 +150,7 @@ class SceneRender {
         if (request_.overrides.has("/brightest") && !request_.quiet) list_brightest(description_.statistics);
         if (!interrupted) checkpoints_.remove();
         if (!interrupted && !is_partial(output_)) keep_sums(rendered);
+        for (RenderWatcher* const watcher : request_.watchers) watcher->enter(interrupted ? "stopped" : "finished");
         return {std::move(description_.statistics), output_, interrupted, false};
     }
 
@@ -135,6 +169,11 @@ class SceneRender {
 
     [[nodiscard]] RenderOptions options_of(const RenderSettings& settings) const {
         return is_partial(output_) ? make_part_options(settings, request_.samples) : make_render_options(settings);
+    }
+
+    void enter(std::string_view phase) const {
+        progress_pipe_.enter(phase);
+        for (RenderWatcher* const watcher : request_.watchers) watcher->enter(phase);
     }
 
     [[nodiscard]] bool is_lost() const { return request_.is_lost != nullptr && *request_.is_lost; }
@@ -238,7 +277,7 @@ class SceneRender {
     /// A checkpoint, or a part that was rendered before.
     [[nodiscard]] std::optional<Checkpoint> read_kept() const {
         if (!request_.resume) return std::nullopt;
-        progress_pipe_.enter("resume");
+        enter("resume");
         const bool has_second_film = keeps_every_other_pass(options_, aovs_.has_halves);
         const CheckpointFiles::Expected expected =
             is_partial(output_) ? expected_part(identity_, options_, first_sample(), has_second_film)
@@ -267,7 +306,7 @@ class SceneRender {
     }
 
     [[nodiscard]] World compile() {
-        progress_pipe_.enter("build");
+        enter("build");
         const PhaseTimer timer;
         World world = ray_code().compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_,
                                                problems_, {});
@@ -310,19 +349,32 @@ class SceneRender {
             return request_.checkpoint_minutes > 0.0 &&
                    since_checkpoint.elapsed().wall >= request_.checkpoint_minutes * 60.0;
         };
-        const RenderPause pause{[&] { return preview_requested() || checkpoint_is_due() || is_lost(); },
-                                [&](const RenderState& now) {
-                                    require_not_lost();
-                                    if (preview_requested()) write_preview(now);
-                                    if (!checkpoint_is_due()) return;
-                                    write_checkpoint(now);
-                                    since_checkpoint = {};
-                                }};
+        ShowingTimes showings;
+        const auto image_is_due = [&] {
+            return showings.is_due() &&
+                   std::ranges::any_of(request_.watchers, [](const RenderWatcher* w) { return w->wants_image(); });
+        };
+        for (RenderWatcher* const watcher : request_.watchers) watcher->enter("render");
+        const RenderPause pause{
+            [&] { return preview_requested() || checkpoint_is_due() || is_lost() || image_is_due(); },
+            [&](const RenderState& now) {
+                require_not_lost();
+                if (image_is_due()) {
+                    showings.begin();
+                    show(now);
+                }
+                if (preview_requested()) write_preview(now);
+                if (!checkpoint_is_due()) return;
+                write_checkpoint(now);
+                since_checkpoint = {};
+            }};
         return render(
             world, *integrator_, options_, threads_, interrupt_requested(),
             [&](const RenderProgress& now) {
                 display.update(now);
                 progress_pipe_.update(now);
+                showings.go_on();
+                for (RenderWatcher* const watcher : request_.watchers) watcher->update(now);
             },
             pause, std::move(state));
     }
@@ -352,6 +404,14 @@ class SceneRender {
         std::filesystem::remove(path, ignored);
     }
 
+    /// Shows the image as it is to whoever looks on.
+    void show(const RenderState& state) const {
+        ImageDescription now = description_;
+        describe_state(now, state, false, "under way");
+        resolve_layers(now, state);
+        for (RenderWatcher* const watcher : request_.watchers) watcher->show(now);
+    }
+
     void write_preview(const RenderState& state) {
         clear_preview_request();
         const std::filesystem::path path = preview_path(output_);
@@ -367,7 +427,7 @@ class SceneRender {
     }
 
     void write(const World& world, const RenderResult& rendered, bool complete) {
-        progress_pipe_.enter("write");
+        enter("write");
         describe_state(description_, rendered, complete, halt_reason_name(rendered.halt_reason));
         if (is_partial(output_)) {
             if (complete) etendue::write_checkpoint(output_, identity_, to_text(description_), rendered);
@@ -376,6 +436,7 @@ class SceneRender {
         if (const auto note = few_buckets(description_.statistics); note && !request_.quiet)
             log_warning("note: {}: {}", output_.string(), *note);
         resolve_layers(description_, rendered);
+        for (RenderWatcher* const watcher : request_.watchers) watcher->show(description_);
         const PixelDepth depth = request_.overrides.depth;
         const std::vector<std::string> earlier = write_image_files(paths_, description_, colors_, depth, [&] {
             if (!request_.strategies.output.empty() && complete)

@@ -5,6 +5,7 @@
 #include "output/statistics.h"
 #include "picture/sample_ranges.h"
 #include "session/prepared_scene.h"
+#include "session/render_watcher.h"
 #include "session/settings_overrides.h"
 #include "session/strategies_image.h"
 
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace etendue {
 
@@ -34,6 +36,7 @@ struct SceneRenderRequest {
     std::string command{};  ///< the command line, to be told with the image
     /// Becomes true when the image is another's to make: nothing is written any more then. Null if it never does.
     const std::atomic<bool>* is_lost = nullptr;
+    std::vector<RenderWatcher*> watchers{};  ///< look on, and outlive the render
 };
 
 /// Thrown by a render whose image has become another's to make.

@@ -48,6 +48,12 @@ void compile_textures(SceneDesc& scene, TextureCompiler& textures, const ThreadP
     data.missing_textures = count_missing_textures(scene);
 }
 
+/// Fills in the camera and how it moves.
+void compile_view(const SceneDesc& scene, WorldData& data) {
+    data.camera = compile_camera(scene);
+    data.camera_motion = compile_camera_motion(scene);
+}
+
 }  // namespace
 
 std::uint64_t default_texture_memory() {
@@ -75,8 +81,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     data.response = SpectralResponse(data.xyz_to_working);
     data.origin = scene.origin;
     data.accelerator = scene.settings.accelerator;
-    data.camera = compile_camera(scene);
-    data.camera_motion = compile_camera_motion(scene);
+    compile_view(scene, data);
 
     TextureCompiler textures(scene);
     compile_materials(scene, textures, data);
@@ -92,6 +97,13 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     find_planes_of_lamps(data);
     move_camera_off_surfaces(data);
     end_phase("lights");
+    return World(std::move(data));
+}
+
+World with_camera(World world, const SceneDesc& scene) {
+    WorldData data = World::take_data(std::move(world));
+    compile_view(scene, data);
+    move_camera_off_surfaces(data);
     return World(std::move(data));
 }
 

@@ -28,6 +28,10 @@ struct CompileOptions {
 [[nodiscard]] World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
                                   const ThreadPool& threads, ProblemList& problems, const CompileOptions& options = {});
 
+/// Returns `world` seen by the camera that the settings of `scene` choose and place; of `scene` nothing else is looked
+/// at. Surfaces, lights and what finds them stay as they are. Throws SceneError if there is no such camera.
+[[nodiscard]] World with_camera(World world, const SceneDesc& scene);
+
 /// Memory for decoded textures, bytes, of a scene that does not say: half of the machine's.
 [[nodiscard]] std::uint64_t default_texture_memory();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace etendue {
@@ -17,15 +18,26 @@ const CameraDesc& chosen_camera(const SceneDesc& scene) {
                      "there is no camera '" + name + "'; " + name_hint(name, camera_names(scene)));
 }
 
+/// Turns the camera as `place` says, whose numbers are of a world in which the scene's own origin is `origin`.
+CameraPose to_pose(const CameraPlace& place, const Vec3d& origin) {
+    const Vec3d forward = (place.target - place.eye).normalized();
+    const Vec3d right = forward.cross(place.up).normalized();
+    return {.position = Vec3f(place.eye - origin),
+            .right = Vec3f(right),
+            .up = Vec3f(right.cross(forward)),
+            .forward = Vec3f(forward)};
+}
+
 }  // namespace
 
 TransformMotion compile_camera_motion(const SceneDesc& scene) {
-    return chosen_camera(scene).motion;
+    return scene.settings.camera_place ? TransformMotion() : chosen_camera(scene).motion;
 }
 
 Camera compile_camera(const SceneDesc& scene) {
     const CameraDesc& desc = chosen_camera(scene);
-    const CameraPose pose = CameraPose::from_matrix(desc.to_world);
+    const std::optional<CameraPlace>& place = scene.settings.camera_place;
+    const CameraPose pose = place ? to_pose(*place, scene.origin) : CameraPose::from_matrix(desc.to_world);
     const ClipRange clip{desc.clip.start, desc.clip.end};
     if (desc.type == CameraType::Equirectangular) return EquirectangularCamera{pose, clip};
     const float aspect = scene.settings.film.aspect();

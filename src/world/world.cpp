@@ -23,7 +23,7 @@ WorldParts::WorldParts(WorldData from)
     traits = find_traits(data, media, lights, emitters);
 }
 
-World::World(WorldData data) : parts_(std::make_unique<const WorldParts>(std::move(data))) {}
+World::World(WorldData data) : parts_(std::make_unique<WorldParts>(std::move(data))) {}
 
 WorldStatistics World::statistics() const {
     const WorldData& data = parts_->data;

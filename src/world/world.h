@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace etendue {
@@ -66,6 +67,8 @@ struct WorldParts {
 class World {
   public:
     explicit World(WorldData data);
+    /// Takes the scene apart into what it was made of.
+    [[nodiscard]] static WorldData take_data(World world) { return std::move(world.parts_->data); }
 
     /// Returns the answers to all yes/no questions.
     [[nodiscard]] const SceneTraits& traits() const { return parts_->traits; }
@@ -92,7 +95,7 @@ class World {
     [[nodiscard]] WorldStatistics statistics() const;
 
   private:
-    std::unique_ptr<const WorldParts> parts_;
+    std::unique_ptr<WorldParts> parts_;
 };
 
 /// Returns the version of the ray tracing library.

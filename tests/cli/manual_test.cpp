@@ -68,7 +68,7 @@ TEST_F(Manual, HelpPrintsWhatTheOptionPrints) {
     const std::string help = run_etendue({"--help"}, work_).out;
     EXPECT_EQ(run_etendue({"help"}, work_).out, help);
     const std::set<std::string> commands = commands_of(help);
-    EXPECT_EQ(commands.size(), 11u);
+    EXPECT_EQ(commands.size(), 12u);
     for (const std::string& command : commands) {
         const ProgramResult result = run_etendue({"help", command}, work_);
         EXPECT_EQ(result.exit_code, 0);
@@ -109,7 +109,7 @@ TEST_F(Manual, PagesAreTroffWithoutAWarning) {
         EXPECT_EQ(output_of(fmt::format("groff -man -ww -z -Tutf8 -Kutf8 '{}'", entry.path().string())), "");
         ++pages;
     }
-    EXPECT_EQ(pages, 12u);
+    EXPECT_EQ(pages, 13u);
 }
 
 TEST(ManPage, TextIsNoTroff) {
@@ -150,7 +150,7 @@ class BashCompletion : public Manual {
 
 TEST_F(BashCompletion, KnowsCommands) {
     EXPECT_EQ(complete({"etendue", "re"}), Names{"render"});
-    EXPECT_EQ(complete({"etendue", ""}).size(), 11u);
+    EXPECT_EQ(complete({"etendue", ""}).size(), 12u);
     EXPECT_EQ(complete({"etendue", "help", "den"}), Names{"denoise"});
     EXPECT_EQ(complete({"etendue", "--v"}), Names{"--version"});
 }

@@ -82,6 +82,16 @@ Samples samples_of(const Setting& setting) {
                 {number->least - 1, number->most + 1}};
     if (const auto* const number = std::get_if<RealNumber>(&setting.type)) return samples_of(*number);
     if (const auto* const numbers = std::get_if<WholeNumbers>(&setting.type)) return samples_of(*numbers);
+    if (const auto* const numbers = std::get_if<RealNumbers>(&setting.type);
+        numbers != nullptr && numbers->least_count == 6) {
+        const std::vector<double> good{1.5, 0.0, 0.0, 0.0, 0.0, 1.0};
+        std::vector<double> next = good;
+        next[0] = std::nextafter(1.5, 2.0);
+        std::vector<double> with_up = good;
+        with_up.insert(with_up.end(), {0.0, 0.0, 1.0});
+        return {{good, next, with_up},
+                {std::vector{1.0, 2.0, 3.0, 1.0, 2.0, 3.0}, std::vector{0.0, 0.0, 0.0, 0.0, 2.0, 0.0}}};
+    }
     if (std::holds_alternative<RealNumbers>(setting.type)) {
         const double next = next_to(1.5, 2.0, true);
         return {{std::vector{0.0, 1.5}, std::vector{0.0, next}, std::vector{-1.0, -1.0}}, {std::vector{1.0, 0.5}}};

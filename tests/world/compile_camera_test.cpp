@@ -2,7 +2,9 @@
 #include "world/test_scene.h"
 
 #include <cmath>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -114,6 +116,56 @@ TEST(CompileCamera, TakesTheNamedOneAndSuggestsTheNearest) {
     scene.settings.camera.clear();
     scene.cameras.clear();
     EXPECT_THROW((void)compile_camera(scene), SceneError);
+}
+
+TEST(CompileCamera, StandsWhereTheSettingsPlaceIt) {
+    SceneDesc scene = empty_scene();
+    scene.origin = Vec3d(1e6, 0.0, 0.0);
+    scene.cameras[0].motion = {Mat4f(), translation({1, 0, 0})};
+    scene.settings.camera_place = CameraPlace{.eye = {1e6 + 2.0, 3.0, 5.0}, .target = {1e6 + 2.0, 3.0, 9.0}};
+    const CameraPose pose = pose_of(compile_camera(scene));
+    EXPECT_EQ(pose.position, Vec3f(2.0f, 3.0f, 5.0f));
+    EXPECT_EQ(pose.forward, Vec3f(0.0f, 0.0f, 1.0f));
+    EXPECT_EQ(pose.up, Vec3f(0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(pose.right, Vec3f(-1.0f, 0.0f, 0.0f));
+    EXPECT_TRUE(compile_camera_motion(scene).empty()) << "it stands still";
+    scene.settings.camera_place->up = {-2.0, 0.0, 1.0};  // what lies along the view counts for nothing
+    EXPECT_EQ(pose_of(compile_camera(scene)).up, Vec3f(-1.0f, 0.0f, 0.0f));
+}
+
+TEST(WithCamera, IsTheWorldThatIsCompiledWithThatCamera) {
+    SceneDesc scene = empty_scene();
+    const auto material = add_material(scene, emissive({1.0f, 2.0f, 3.0f}));
+    add_object(scene, sphere({0.0f, 0.0f, -3.0f}, 1.0f, 8), material);
+    SceneDesc moved = scene;
+    moved.settings.camera_place = CameraPlace{.eye = {0.5, 0.5, 4.0}, .target = {0.0, 0.0, -3.0}};
+    World world = with_camera(compile(scene), moved);
+    // Which may be done again, and of which the description needs nothing but the camera.
+    SceneDesc view;
+    view.cameras = moved.cameras;
+    view.settings = moved.settings;
+    world = with_camera(std::move(world), view);
+    const World compiled = compile(moved);
+    EXPECT_EQ(world.traits().has_emitting_surfaces, compiled.traits().has_emitting_surfaces);
+    EXPECT_EQ(world.statistics().triangles, compiled.statistics().triangles);
+    const auto distance = [](const World& where, const Ray& ray) {
+        Hit hit;
+        where.geometry().intersect(std::span(&ray, 1), std::span(&hit, 1), Coherence::Coherent);
+        return hit.valid() ? hit.t : 0.0f;
+    };
+    Random random(3);
+    int hits = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Vec2f film = random.next_2d();
+        const Ray ray = world.camera().generate_ray(film, {0.5f, 0.5f}, 0.0f);
+        const Ray expected = compiled.camera().generate_ray(film, {0.5f, 0.5f}, 0.0f);
+        EXPECT_EQ(ray.origin, expected.origin);
+        EXPECT_EQ(ray.direction, expected.direction);
+        EXPECT_EQ(distance(world, ray), distance(compiled, ray));
+        hits += distance(world, ray) > 0.0f ? 1 : 0;
+    }
+    EXPECT_GT(hits, 10);
+    EXPECT_LT(hits, 190);
 }
 
 }  // namespace

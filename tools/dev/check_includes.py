@@ -54,12 +54,13 @@ ROOMS = {
     "compare": "session process picture report metrics output render processor integrator film world texture color image "
     "loader core",
     "profile": "session process picture report render integrator wave world accelerator scene core",
-    "cli": "profile compare farm batch session process picture denoise report metrics output render processor film world "
+    "live": "batch session process picture report output render processor integrator film world loader scene color image core",
+    "cli": "live profile compare farm batch session process picture denoise report metrics output render processor film world "
     "color image loader core",
 }
 
 # Those whose tests are one program, tests/cli/CMakeLists.txt.
-PROGRAM_ROOMS = ("process", "session", "batch", "farm", "compare", "profile", "cli", "program")
+PROGRAM_ROOMS = ("process", "session", "batch", "farm", "compare", "profile", "live", "cli", "program")
 
 # Pattern of a third-party header, the rooms that may include it, and whether their headers may show it to other rooms.
 ANY_ROOM = " ".join(ROOMS)
@@ -76,7 +77,8 @@ THIRD_PARTY = [
     (r"OpenImageIO/", "oiio", WRAPPED),
     (r"OpenColorIO/", "color", WRAPPED),
     (r"(tiny_gltf\.h|draco/|meshoptimizer\.h)", "loader", WRAPPED),
-    (r"nlohmann/", "loader output report picture api session batch farm cli", WRAPPED),
+    (r"nlohmann/", "loader output report picture api session batch farm live cli", WRAPPED),
+    (r"httplib\.h", "live", WRAPPED),
     (r"(openvdb|nanovdb)/", "medium", WRAPPED),
     (r"embree[34]/", "world", WRAPPED),
     (r"CLI/Version\.hpp", "session", WRAPPED),
@@ -86,6 +88,7 @@ THIRD_PARTY = [
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),
     (r"sys/types\.h", ANY_ROOM, SHOWN),
     (r"(unistd|dlfcn|elf|fcntl|fnmatch|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),
+    (r"netdb\.h", "live", WRAPPED),
 ]
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")  # <vector>, <cstdint>: no slash, no suffix
 

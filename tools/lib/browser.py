@@ -1,4 +1,4 @@
-"""A browser without a window or a network that a program drives: Debian's chromium."""
+"""A browser without a window or a network but this machine's own that a program drives: Debian's chromium."""
 
 import base64
 import contextlib
@@ -32,7 +32,7 @@ class Browser:
             # /dev/shm of a container is 64 MB, less than screenshots of long pages take.
             [program, "--headless=new", "--remote-debugging-pipe", f"--user-data-dir={profile}", "--disable-gpu",
              "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update", "--no-first-run",
-             "--host-resolver-rules=MAP * ~NOTFOUND", *(["--no-sandbox"] if os.geteuid() == 0 else []), "about:blank"],
+             "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1", *(["--no-sandbox"] if os.geteuid() == 0 else []), "about:blank"],
             preexec_fn=connect, close_fds=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
         os.close(theirs_in)

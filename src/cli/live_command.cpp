@@ -1,0 +1,65 @@
+// etendue live: a scene to look around in, in a browser.
+#include "cli/command_options.h"
+#include "cli/commands.h"
+#include "cli/settings_options.h"
+#include "live/explorer.h"
+#include "live/explorer_page.h"
+#include "session/interrupt.h"
+#include "session/prepared_scene.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace etendue {
+
+namespace {
+
+struct LiveArguments {
+    std::string scene;
+    SettingsOverrides overrides;
+    int port = 0;
+    int threads = 0;
+    std::vector<GivenOption> given;  ///< what `render` understands, too
+};
+
+ExitCode run_live(const LiveArguments& arguments) {
+    const ThreadPool threads(arguments.threads);
+    Explorer explorer(prepare_scene(arguments.scene, arguments.overrides), arguments.given, threads);
+    const ExplorerPage page(arguments.port, explorer);
+    explorer.run([&] { return page.is_ended() || interrupt_requested(); });
+    return page.is_ended() ? ExitCode::Success : interrupt_exit_code();
+}
+
+}  // namespace
+
+void add_live_command(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<LiveArguments>();
+    CLI::App* command =
+        app.add_subcommand("live", "Look around in a scene in a browser, with one integrator or two side by side");
+    add_scene_argument(*command, arguments->scene);
+    command
+        ->add_option("--port", arguments->port,
+                     "Port of 127.0.0.1 that the page is on; 0 (default) for one that is free")
+        ->check(CLI::Range(0, 65535));
+    add_settings_options(*command, arguments->overrides);
+    command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
+        ->check(CLI::Range(1, 4096));
+    command->footer(
+        "A line on stderr has the address of the page. The page moves the camera, chooses integrators and shows the\n"
+        "command that renders what it shows. The program ends with the page's button or Ctrl-C, and writes no file.\n\n"
+        "Examples:\n"
+        "  etendue live scenes/cornell-box\n"
+        "  etendue live scenes/caustic-glass --integrator bdpt --size 640x360\n"
+        "  etendue live model.glb --environment studio.hdr --port 8080");
+    command->callback([arguments, command, &action] {
+        const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
+        arguments->given = without(given_options(all), "--port");
+        action = [arguments] { return run_live(*arguments); };
+    });
+}
+
+}  // namespace etendue

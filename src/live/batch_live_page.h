@@ -1,0 +1,45 @@
+// The page of a batch that runs.
+#pragma once
+
+#include "batch/batch_watcher.h"
+#include "live/live_server.h"
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// Shows a batch to a browser while it lives: its table, and its images as they are finished.
+class BatchLivePage final : public BatchWatcher {
+  public:
+    /// Listens on `port`, or on a free one if that is 0, and says where on stderr. Throws IoError if it cannot.
+    explicit BatchLivePage(int port);
+    /// Waits for a second at most, so that whoever looks sees the end.
+    ~BatchLivePage() override;
+
+    [[nodiscard]] bool wants_report() const override;
+    void show(const BatchReport& report) override;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    [[nodiscard]] LiveAnswer answer(const LiveRequest& request);
+    /// Answers with the picture of a unit of the batch.
+    [[nodiscard]] LiveAnswer picture(std::size_t unit) const;
+    [[nodiscard]] bool is_watched() const;
+
+    std::atomic<Clock::time_point> looked_at_{};  ///< when a page last asked for the state
+    std::atomic<Clock::time_point> shown_at_{};
+    std::atomic<bool> is_end_told_{false};  ///< a page knows of the end
+    mutable std::mutex mutex_;              ///< guards the next three
+    std::string status_ = R"({"kind":"batch","title":"","phase":"load","images":[],"report":null})";
+    bool is_ended_ = false;
+    std::vector<std::filesystem::path> pictures_;  ///< of each unit; empty where there is none
+    LiveServer server_;                            ///< last: it answers from the others
+};
+
+}  // namespace etendue

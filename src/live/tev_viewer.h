@@ -1,0 +1,66 @@
+// A growing image for tev, the viewer of high dynamic range images (https://github.com/Tom94/tev), by its protocol.
+#pragma once
+
+#include "output/output_frame.h"
+#include "process/file_descriptor.h"
+#include "session/render_watcher.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace etendue {
+
+/// Says where tev listens.
+struct TevAddress {
+    std::string host{};
+    std::string port{};
+
+    /// Reads "HOST:PORT"; nothing if `text` is not of that form.
+    [[nodiscard]] static std::optional<TevAddress> parse(const std::string& text);
+};
+
+/// Sends images of renders to tev while it lives, from a thread of its own. If tev cannot be reached, or is closed, it
+/// warns once and sends nothing more; no render fails for that.
+class TevViewer final : public RenderWatcher {
+  public:
+    explicit TevViewer(TevAddress address);
+    /// Sends the last image, which takes as long as it takes, up to some seconds.
+    ~TevViewer() override;
+
+    void begin(const std::string& title, const std::filesystem::path& output) override;
+    void enter(std::string_view /*phase*/) override {}
+    void update(const RenderProgress& /*progress*/) override {}
+    [[nodiscard]] bool wants_image() const override;
+    void show(const ImageDescription& image) override;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void run();
+    /// Sends `frame` as the image `name`, which is made anew if it is another than the one before. Throws IoError.
+    void send(const std::string& name, const OutputFrame& frame);
+    void send_bytes(std::string_view bytes) const;
+
+    const TevAddress address_;
+    std::atomic<bool> is_idle_{true};
+    std::atomic<bool> is_lost_{false};
+    std::atomic<Clock::time_point> shown_{};
+    std::mutex mutex_;  ///< guards the next four
+    std::condition_variable woken_;
+    std::string name_;
+    std::shared_ptr<const OutputFrame> next_;
+    bool is_ended_ = false;
+    FileDescriptor socket_;  ///< of the thread, as is the next
+    std::string sent_name_;
+    std::thread thread_;
+};
+
+}  // namespace etendue
