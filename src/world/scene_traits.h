@@ -11,20 +11,20 @@ class Media;
 
 /// Answers what a scene has and needs, once it is compiled, so that integrators leave out what it does not need.
 struct SceneTraits {
-    bool has_textures = false;            ///< something is textured, so that rays need cones
-    bool has_panes = false;               ///< some surface is a pane
-    bool has_transparency = false;        ///< some surface lets rays through at random, so that they need alpha keys
-    bool has_motion = false;              ///< something moves while the shutter is open, so that rays need times
-    bool film_wraps = false;              ///< the camera sees all around: its film goes on beyond its edges
-    bool has_blind_film = false;          ///< parts of the film see nothing: the t_max of rays from there is 0
-    bool clips_far = false;               ///< the camera shows no surface beyond some depth
-    bool has_lens = false;                ///< numbers for a point on the lens mean something
-    bool has_specular_surfaces = false;   ///< some surface mirrors or refracts without any roughness
-    bool has_unlit_surfaces = false;      ///< some surface shows its colour and neither scatters nor emits light
-    bool has_emitting_surfaces = false;   ///< some surface emits light
-    bool hides_surfaces = false;          ///< some surface is hidden from the camera
-    bool has_shadow_catchers = false;     ///< the camera sees shadows in place of some surface
-    bool culls_backs = false;             ///< the eye does not see some surface from behind
+    bool has_textures = false;           ///< something is textured, so that rays need cones
+    bool has_panes = false;              ///< some surface is a pane
+    bool has_transparency = false;       ///< some surface lets rays through at random, so that they need alpha keys
+    bool has_motion = false;             ///< something moves while the shutter is open, so that rays need times
+    bool film_wraps = false;             ///< the camera sees all around: its film goes on beyond its edges
+    bool has_blind_film = false;         ///< parts of the film see nothing: the t_max of rays from there is 0
+    bool clips_far = false;              ///< the camera shows no surface beyond some depth
+    bool has_lens = false;               ///< numbers for a point on the lens mean something
+    bool has_specular_surfaces = false;  ///< some surface mirrors or refracts without any roughness
+    bool has_unlit_surfaces = false;     ///< some surface shows its colour and neither scatters nor emits light
+    bool has_emitting_surfaces = false;  ///< some surface emits light
+    bool hides_surfaces = false;         ///< some surface is hidden from the camera
+    bool has_shadow_catchers = false;    ///< the camera sees shadows in place of some surface
+    bool culls_backs = false;            ///< the eye does not see some surface from behind
     /// Is set if some of these move, are uneven shapes or are beyond the most triangles that are sampled.
     bool has_unsampled_emitters = false;
 
