@@ -94,6 +94,12 @@ Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given
     // A camera that is upright is turned around the vertical; any other keeps what it calls up.
     if (std::abs(pose.right.y) > 1e-3f) own_camera_.up = Vec3d(pose.up);
 
+    // One for both images, which stays while the camera moves.
+    if (!scene_.settings.color.exposure) {
+        scene_.settings.color.exposure = 0.0f;
+        given_.push_back({"--exposure", "0"});
+    }
+
     std::vector<std::string> to_choose = replace_auto(scene_.settings);
     const std::string first = scene_.settings.integrator.type;
     for (const bool is_first : {true, false}) {

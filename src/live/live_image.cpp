@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "image/write.h"
 #include "live/live_json.h"
+#include "output/auto_exposure.h"
 #include "output/data_image.h"
 
 #include <algorithm>
@@ -42,8 +43,13 @@ DataStyle style_of_layer(const OutputLayer& layer) {
     return names_ids(layer.name) ? DataStyle::Ids : style_of_values(layer.pixels);
 }
 
+/// Returns how `frame` is shown by itself.
+DisplayView own_view(const OutputFrame& frame) {
+    return {frame.working_space, frame.display, frame.view, frame.look, frame.exposure.value_or(0.0f)};
+}
+
 DisplayView view_of(const OutputFrame& frame, const LiveRequest& request) {
-    DisplayView view{frame.working_space, frame.display, frame.view, frame.look, frame.exposure};
+    DisplayView view = own_view(frame);
     const std::string display = query_text(request, "display");
     if (!display.empty() && display != view.display) view = {frame.working_space, display, {}, {}, view.exposure};
     if (const std::string named = query_text(request, "view"); !named.empty() && named != view.view) {
@@ -65,6 +71,7 @@ ImageF picture_of_frame(const OutputFrame& frame, const LiveRequest& request, co
 }  // namespace
 
 void LiveImage::set(OutputFrame frame) {
+    choose_missing_exposure(frame);
     auto next = std::make_shared<const OutputFrame>(std::move(frame));
     const std::scoped_lock lock(mutex_);
     held_ = {held_.version + 1, std::move(next)};
@@ -134,7 +141,7 @@ std::optional<LiveImageFacts> LiveImage::facts() const {
                          .integrator = frame.integrator,
                          .space = frame.working_space};
     for (const OutputLayer& layer : frame.layers) facts.layers.push_back(layer.name);
-    facts.shown = with_defaults({frame.working_space, frame.display, frame.view, frame.look, frame.exposure}, colors_);
+    facts.shown = with_defaults(own_view(frame), colors_);
     return facts;
 }
 

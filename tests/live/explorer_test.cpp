@@ -92,16 +92,17 @@ TEST(Explorer, ShowsWhatItsCommandRenders) {
     const std::string place = "0.312346,0.2,2.5,0,0,0";
     const std::string scene = "'" + work.folder().path().string() + "'";
     EXPECT_EQ(sides[0].command, "etendue render " + scene +
-                                    " --size '48x36' --integrator 'path' --max-depth '32' "
+                                    " --size '48x36' --exposure '0' --integrator 'path' --max-depth '32' "
                                     "--camera-place '" +
                                     place + "'");
     EXPECT_EQ(sides[1].command, "etendue render " + scene +
-                                    " --size '48x36' --integrator 'bdpt' --max-depth '4' "
+                                    " --size '48x36' --exposure '0' --integrator 'bdpt' --max-depth '4' "
                                     "--heuristic 'power' --seed '7' --camera-place '" +
                                     place + "'");
     SettingsOverrides first = small_image();
     first.give("--camera-place", place);
     first.give("--max-depth", "32");
+    first.give("--exposure", "0");
     SettingsOverrides second = first;
     for (const auto& [option, text] :
          {std::pair("--integrator", "bdpt"), {"--max-depth", "4"}, {"--heuristic", "power"}, {"--seed", "7"}})
