@@ -113,8 +113,11 @@ LightAim::View<T> LightAim::view(const AimSphere& sphere, const Imath::Vec3<T>& 
     // The angle to the axis is less than both half angles together.
     const MaskOf<T> is_lit = is_around || cone.cos_half <= -cosine ||
                              dot(to, cone.axis) > distance * (cone.cos_half * cosine - sin_cone * sine);
+    // Of smaller spheres, single precision does not tell which directions lead there.
+    const MaskOf<T> is_told = is_around || sin2 > T(1e-10f);
     // Without the difference of one and the cosine of a small angle.
-    return {to, select(is_lit, select(is_around, T(2.0f), sin2 / (T(1.0f) + cosine)), T(0.0f)), is_around, radius};
+    return {to, select(is_lit && is_told, select(is_around, T(2.0f), sin2 / (T(1.0f) + cosine)), T(0.0f)), is_around,
+            radius};
 }
 
 template <typename T>

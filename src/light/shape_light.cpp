@@ -30,6 +30,7 @@ ShapeLight::ShapeLight(const ExactShape& shape, Rgb radiance, Rgb mean_radiance,
     }
     by_area_ = AliasTable(areas);
     area_ = static_cast<float>(total);
+    if (is_flat(shape_.kind()) && !two_sided_) cone_ = {shape_.point({}).normal, std::cos(beam_.half_angle())};
 }
 
 LightTriangleFront<float> ShapeLight::any_front() const {

@@ -36,8 +36,8 @@ class ShapeLight {
     /// Samples uniformly over the area, by the cosine over the directions of each side that emits, within the beam.
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
-    /// Returns all directions: a shape has normals of many.
-    [[nodiscard]] static LightCone<float> cone(std::uint32_t) { return {{0.0f, 1.0f, 0.0f}, -1.0f}; }
+    /// Returns the directions into which a flat shape shines; all of them for others, whose normals differ.
+    [[nodiscard]] const LightCone<float>& cone(std::uint32_t) const { return cone_; }
     void turn(EmissionSample& sample, const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
     /// Returns bounds as if every point of the shape shone as much as any other.
@@ -79,6 +79,7 @@ class ShapeLight {
     Rgb mean_radiance_;
     Vec3f position_error_;
     Beam beam_;
+    LightCone<float> cone_{{0.0f, 1.0f, 0.0f}, -1.0f};
     float area_ = 0.0f;  ///< m²
     bool two_sided_ = false;
     bool is_uniform_ = true;

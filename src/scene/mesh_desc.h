@@ -93,6 +93,7 @@ struct InstanceDesc {
     TransformMotion motion;
     SourceLocation location;
     std::uint32_t node = NodeDesc::kNone;  ///< index into SceneDesc::nodes
+    bool is_deformed = false;              ///< a skin has placed its vertices in the world
 };
 
 }  // namespace etendue

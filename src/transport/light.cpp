@@ -17,7 +17,6 @@ std::optional<LensView> view_from_lens(const World& world, const Vec3f& position
 std::optional<FilmLight> lamp_to_camera(const SubpathSample& sample, const Emission& emission,
                                         const std::function<float(const LensView& view, float cosine)>& weigh) {
     const World& world = sample.world();
-    if (is_black(emission.sample.radiance)) return {};
     const Vec2f lens = sample.pair(SubpathEnd::AtLight, 0, SubpathDimension::LightChoice);
     const float time = sample.eye.ray.time;
     const auto view = view_from_lens(world, emission.sample.position, lens, time);

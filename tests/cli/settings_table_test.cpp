@@ -68,15 +68,21 @@ Samples samples_of(const WholeNumbers& type) {
     return samples;
 }
 
-/// Holds the samples of forms, which no program can make up.
-const std::map<std::string_view, Samples> kForms{
+/// Holds samples of settings for which no program can make them up.
+const std::map<std::string_view, Samples> kKnown{
     {"/robust", {{"mon:3", "mon:5", "mean", "mon:31"}, {"mon:1", "mon:4", "mon:33", "median"}}},
     {"/integrator/connections",
      {{"cache:1", "cache:2", "pairwise", "cache:999"}, {"cache:0", "cache:1000", "cache:", "all"}}},
+    {"/integrator/strategy", {{"1,2", "1,3", "merging", "0,2"}, {"0,0", "1", "1,2,3", "-1,2", "merges"}}},
+    {"/camera_place",
+     {{std::vector{0.0, 1.0, 2.0, 0.0, 0.0, 0.0}, std::vector{0.0, std::nextafter(1.0, 2.0), 2.0, 0.0, 0.0, 0.0},
+       std::vector{0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}},
+      {std::vector{1.0, 1.0, 1.0, 1.0, 1.0, 1.0}}}},
     {"/texture_memory", {{"1M", "2M", "999999T"}, {"1", "M", "1K", "-1G", "1.5G", "1000000M"}}},
 };
 
 Samples samples_of(const Setting& setting) {
+    if (const auto known = kKnown.find(setting.pointer); known != kKnown.end()) return known->second;
     if (const auto* const number = std::get_if<WholeNumber>(&setting.type))
         return {{number->least + 5, number->least + 6, number->least, number->most},
                 {number->least - 1, number->most + 1}};
@@ -110,8 +116,7 @@ Samples samples_of(const Setting& setting) {
     if (std::holds_alternative<Texts>(setting.type))
         return {{std::vector<std::string>{"depth"}, std::vector<std::string>{"depth", "N:half"}},
                 {std::vector<std::string>{"N="}}};
-    const auto form = kForms.find(setting.pointer);
-    return form == kForms.end() ? Samples() : form->second;
+    return {};
 }
 
 /// Writes a render.json with that value alone.

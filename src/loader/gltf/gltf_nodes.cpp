@@ -239,7 +239,7 @@ class Placer {
         else if (!allocate_places(1, mesh.mesh, where))
             return;
         else if (mesh.is_in_world_space)
-            place_mesh(node, mesh.mesh, Mat4d(), {}, where);
+            place_mesh(node, mesh.mesh, Mat4d(), {}, where, true);
         else
             place_mesh(node, mesh.mesh, placed.to_world, nodes_.motion(placed.node), where);
     }
@@ -268,11 +268,11 @@ class Placer {
     }
 
     void place_mesh(const tinygltf::Node& node, Handle<MeshDesc> handle, const Mat4d& to_world,
-                    std::span<const Mat4d> motion, const SourceLocation& where) {
+                    std::span<const Mat4d> motion, const SourceLocation& where, bool is_deformed = false) {
         const MeshDesc& mesh = scene_.meshes[static_cast<std::size_t>(handle.index)];
         if (mesh.primitives.empty()) return;  // reported with the mesh
         InstanceDesc instance{
-            node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where, current_};
+            node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where, current_, is_deformed};
         if (!motion.empty()) instance.motion = thin_out(motion, bounds_of(handle));
         if (!is_invertible(instance.to_world) || !std::ranges::all_of(instance.motion, is_invertible)) {
             const Handle<MeshDesc> flat =

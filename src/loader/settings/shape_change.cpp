@@ -27,7 +27,8 @@ std::vector<std::string_view> sorted_names(const std::vector<Thing>& things) {
 /// Puts shapes into a scene.
 class ShapePlacer {
   public:
-    ShapePlacer(SceneDesc& scene, ProblemList& problems) : scene_(scene), problems_(problems) {}
+    ShapePlacer(SceneDesc& scene, ProblemList& problems)
+        : scene_(scene), problems_(problems), taken_by_(scene.instances.size()) {}
 
     void put(const std::string& name, const ShapeChange& change) {
         Handle<MaterialDesc> material;
@@ -69,8 +70,24 @@ class ShapePlacer {
     bool replace_meshes(const std::string& name, const ShapeChange& change, Handle<MaterialDesc> material,
                         const std::vector<std::uint32_t>& nodes) {
         std::map<std::int32_t, Handle<MeshDesc>> shape_of_mesh;
-        for (InstanceDesc& instance : scene_.instances) {
+        // Those of the file: other shapes may stand at the node, too.
+        for (std::size_t i = 0; i < taken_by_.size(); ++i) {
+            InstanceDesc& instance = scene_.instances[i];
             if (std::ranges::find(nodes, instance.node) == nodes.end()) continue;
+            if (!taken_by_[i].empty()) {
+                problems_.error(change.location,
+                                fmt::format("takes the place of the mesh whose place '{}' has taken; give one of them "
+                                            "a \"position\"",
+                                            shown(taken_by_[i])));
+                return true;
+            }
+            if (instance.is_deformed) {
+                problems_.error(change.location,
+                                "would take the place of a mesh that a skin deforms, so that no transform says where "
+                                "the shape is; give it a \"position\"");
+                return true;
+            }
+            taken_by_[i] = name;
             const auto [entry, is_new] = shape_of_mesh.try_emplace(instance.mesh.index);
             if (is_new) {
                 const std::vector<PrimitiveDesc>& primitives =
@@ -119,6 +136,7 @@ class ShapePlacer {
 
     SceneDesc& scene_;
     ProblemList& problems_;
+    std::vector<std::string> taken_by_;  ///< by instance of the file, the shape that took its mesh's place
 };
 
 }  // namespace

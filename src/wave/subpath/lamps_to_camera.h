@@ -24,7 +24,6 @@ class LampsToCamera {
         draw_lens(job);
         for (std::uint32_t slot = 0; slot < job.samples.size(); ++slot) {
             const Emission& emission = subpaths.emissions()[slot];
-            if (is_black(emission.sample.radiance)) continue;
             const float time = job.camera_rays[slot].time;
             const auto view = view_from_camera(world, job.job, emission.sample.position, lens_[slot], time);
             if (!view) continue;

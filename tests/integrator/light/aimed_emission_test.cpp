@@ -32,6 +32,12 @@ const std::vector<AimedLight>& aimed_lights() {
              lamp.beam = {.kind = BeamDesc::Kind::Panel, .spread = 2.0f};
              add_object(scene, quad({0.1f, 1.3f, -2.8f}, {0.3f, 0, 0}, {0, 0, 0.3f}), add_material(scene, lamp));
          }},
+        // In view, with mirrors across its horizon.
+        {"SeenLamp",
+         [](SceneDesc& scene) {
+             add_object(scene, quad({0.5f, 0.3f, -2.95f}, {0.2f, 0, 0}, {0, 0.2f, 0}),
+                        add_material(scene, emissive(Rgb(6.0f))));
+         }},
         {"Point", [](SceneDesc& scene) { scene.lights.push_back(point_light()); }},
         {"Spot", [](SceneDesc& scene) { scene.lights.push_back(spot_light()); }},
         {"Sun", [](SceneDesc& scene) { scene.lights.push_back(sun_light()); }},

@@ -55,6 +55,17 @@ TEST(Shapes, TakeThePlaceOfMeshes) {
     EXPECT_NE(dump(scene).find("sphere with half its size (2 2 2), material 0"), std::string::npos);
 }
 
+TEST(Shapes, ManyStandAtAnEmptyNodeAndOneInPlaceOfAMesh) {
+    const std::string both = R"("type": "sphere", "material": "glass"})";
+    const LoadedScene loaded =
+        load_shapes(R"({"a": {"node": "Empty", )" + both + R"(, "b": {"node": "Empty", )" + both + "}");
+    EXPECT_FALSE(loaded.problems.has_errors());
+    EXPECT_EQ(loaded.scene.instances.size(), 4u);
+    EXPECT_NE(errors_of(R"({"a": {"node": "Ball", )" + both + R"(, "b": {"node": "Ball", )" + both + "}")
+                  .find("takes the place of the mesh whose place 'a' has taken"),
+              std::string::npos);
+}
+
 TEST(Shapes, StandAtNodesWithoutMeshesAndAtPlacesOfTheirOwn) {
     const LoadedScene loaded = load_shapes(R"({
         "Rod": {"type": "cylinder", "radius": 0.25, "height": 3, "node": "Empty", "material": "glass"},
