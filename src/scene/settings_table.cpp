@@ -75,9 +75,6 @@ template <std::size_t N>
 SettingValue to_value(const std::array<int, N>& value) {
     return std::vector<std::int64_t>(value.begin(), value.end());
 }
-SettingValue to_value(const Strategy& value) {
-    return strategy_text(value);
-}
 SettingValue to_value(const std::vector<std::string>& value) {
     return value;
 }
@@ -120,8 +117,6 @@ Held from_value(const SettingValue& value) {
         CameraPlace place{.eye = vector(0), .target = vector(3)};
         if (numbers.size() > 6) place.up = vector(6);
         return place;
-    } else if constexpr (std::is_same_v<Held, Strategy>) {
-        return parse_strategy(std::get<std::string>(value)).value();
     } else if constexpr (std::is_same_v<Held, FrameRange>) {
         const auto& numbers = std::get<std::vector<std::int64_t>>(value);
         return {static_cast<int>(numbers.at(0)), static_cast<int>(numbers.at(1)),
@@ -189,6 +184,10 @@ constexpr SettingPlace parsed_at(Place /*place*/) {
                 else
                     held = Place{}(defaults());
             }};
+}
+
+SettingValue strategy_value(const std::optional<Strategy>& strategy) {
+    return strategy ? SettingValue(strategy_text(*strategy)) : SettingValue();
 }
 
 std::string connections_text(int count) {
@@ -508,7 +507,7 @@ constexpr std::array kRows{
             .help = "Show only paths of `bdpt` or `vcm` with S vertices from the light and T from the eye, counting "
                     "those on the light and on the lens; or `merging`, those that `vcm` merges",
             .page = "integrators.md#one-strategy-at-a-time",
-            .place = at([](auto& s) -> auto& { return s.integrator.strategy; })},
+            .place = parsed_at<parse_strategy, strategy_value>([](auto& s) -> auto& { return s.integrator.strategy; })},
     Setting{
         .pointer = "/integrator/weighted",
         .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},

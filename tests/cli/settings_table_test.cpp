@@ -73,7 +73,7 @@ const std::map<std::string_view, Samples> kKnown{
     {"/robust", {{"mon:3", "mon:5", "mean", "mon:31"}, {"mon:1", "mon:4", "mon:33", "median"}}},
     {"/integrator/connections",
      {{"cache:1", "cache:2", "pairwise", "cache:999"}, {"cache:0", "cache:1000", "cache:", "all"}}},
-    {"/integrator/strategy", {{"1,2", "1,3", "merging", "0,2"}, {"0,0", "1", "1,2,3", "-1,2", "merges"}}},
+    {"/integrator/strategy", {{"1,2", "1,3", "merging", "0,2"}, {"1", "1,2,3", "-1,2", "merges"}}},
     {"/camera_place",
      {{std::vector{0.0, 1.0, 2.0, 0.0, 0.0, 0.0}, std::vector{0.0, std::nextafter(1.0, 2.0), 2.0, 0.0, 0.0, 0.0},
        std::vector{0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}},
