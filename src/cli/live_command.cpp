@@ -29,7 +29,7 @@ struct LiveArguments {
 ExitCode run_live(const LiveArguments& arguments) {
     const ThreadPool threads(arguments.threads);
     Explorer explorer(prepare_scene(arguments.scene, arguments.overrides), arguments.given, threads);
-    const ExplorerPage page(arguments.port, explorer);
+    ExplorerPage page(arguments.port, explorer);
     explorer.run([&] { return page.is_ended() || interrupt_requested(); });
     return page.is_ended() ? ExitCode::Success : interrupt_exit_code();
 }

@@ -1,6 +1,7 @@
 #include "live/explorer.h"
 
 #include "core/log.h"
+#include "integrator/integrator.h"
 #include "picture/integrator_choice.h"
 #include "processor/ray_code.h"
 #include "render/render.h"
@@ -26,10 +27,11 @@ constexpr double kFrameSeconds =
     1.0 / 45.0;                        // of all images that are shown while the camera moves: leaves time to show
 constexpr double kSliceSeconds = 0.2;  // of a pass, so that both images go on side by side
 
-/// Settings that a page may change: none of the others can, once the world is compiled.
+/// Returns true for what "Other options" of a page may change: no more can, once the world is compiled, and the
+/// integrator has a field of its own.
 bool may_be_chosen(const Setting& setting) {
-    return setting.pointer.starts_with("/integrator/") || setting.pointer == "/clamp_indirect" ||
-           setting.pointer == "/seed" || setting.pointer == "/sampler";
+    return (setting.pointer.starts_with("/integrator/") && setting.pointer != "/integrator/type") ||
+           setting.pointer == "/clamp_indirect" || setting.pointer == "/seed" || setting.pointer == "/sampler";
 }
 
 /// Gives `overrides` the options in `text`, "--max-depth 3 --unweighted".
@@ -65,8 +67,12 @@ std::vector<GivenOption> options_of(const ExplorerChoice& choice) {
 }
 
 std::string text_of_place(const CameraPlace& place) {
+    // To a millionth of the distance, however far from the origin that is.
+    const double step = std::pow(10.0, std::floor(std::log10(length(place.eye - place.target))) - 6.0);
+    const auto number = [&](double x) { return fmt::format("{:.15g}", std::round(x / step) * step + 0.0); };
+    const auto point = [&](const Vec3d& v) { return fmt::format("{},{},{}", number(v.x), number(v.y), number(v.z)); };
     const auto text = [](const Vec3d& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); };
-    return fmt::format("{},{}{}", text(place.eye), text(place.target),
+    return fmt::format("{},{}{}", point(place.eye), point(place.target),
                        place.up == CameraPlace{}.up ? "" : "," + text(place.up));
 }
 
@@ -74,7 +80,11 @@ std::string text_of_place(const CameraPlace& place) {
 
 Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given, const ThreadPool& threads)
     : threads_(threads), given_(given) {
+    // Images here are whole, and have no end.
+    for (const char* const name : {"--crop", "--overscan", "--error"}) given_ = without(std::move(given_), name);
     SceneDesc scene = std::move(prepared.scene);
+    const auto catcher = std::ranges::find(scene.materials, true, &MaterialDesc::catches_shadows);
+    if (catcher != scene.materials.end()) catcher_ = catcher->name;
     const std::string working_space = resolve_colors(scene.settings, colors_);
     const Bounds bounds = compute_bounds(scene);
     scene_.name = scene.name;
@@ -102,8 +112,9 @@ Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given
 
     std::vector<std::string> to_choose = replace_auto(scene_.settings);
     const std::string first = scene_.settings.integrator.type;
+    const std::string second = catcher_ ? (first == "naive" ? "path" : "naive") : (first == "bdpt" ? "path" : "bdpt");
     for (const bool is_first : {true, false}) {
-        const std::string integrator = is_first ? first : first == "bdpt" ? "path" : "bdpt";
+        const std::string integrator = is_first ? first : second;
         const ExplorerChoice choice{is_first, integrator, scene_.settings.integrator.lengths.max_depth, ""};
         wishes_.sides.at(is_first ? 0 : 1) = std::pair(choice, settings_of(choice));
     }
@@ -121,6 +132,12 @@ RenderSettings Explorer::settings_of(const ExplorerChoice& choice) const {
     overrides.apply(settings);
     if (settings.integrator.type == kAutoIntegrator) throw UsageError("'auto' is no integrator: choose one");
     (void)create_integrator(settings);
+    const IntegratorEntry* const entry = find_integrator(settings.integrator.type);
+    if (catcher_ && entry != nullptr && !entry->catches_shadows && entry->shows_light)
+        throw UsageError(
+            fmt::format("'{}' does not see what the material '{}' is to catch; 'path', 'direct' and "
+                        "'naive' see shadow catchers",
+                        settings.integrator.type, *catcher_));
     settings.film.crop.reset();
     settings.film.overscan = 0.0f;
     settings.relative_error = 0.0;
@@ -139,7 +156,7 @@ void Explorer::move_camera(const std::string& place, bool moves) {
     rounded.apply(settings);
     const std::scoped_lock lock(mutex_);
     wishes_.camera = settings.camera_place;
-    camera_moves_ = moves;
+    moved_at_ = moves ? Clock::now() : Clock::time_point{};
     has_wishes_ = true;
     news_.notify_all();
 }
@@ -193,7 +210,7 @@ Explorer::Side* Explorer::next_side() {
     for (Side& side : sides_) {
         if (!side.choice.is_shown) continue;
         // While the camera moves, its small images are all there is to make.
-        if (camera_moves_ && side.shrink > 0) continue;
+        if (side.shrink > 0 && does_camera_move()) continue;
         if (side.shrink == 1 && side.rendering && side.rendering->state().spp_done >= kMostExplorerSpp) continue;
         // One that has shown nothing yet comes first, then the one that has had less time.
         const auto rank = [](const Side& s) { return std::pair(s.shrink > 0, s.cpu_seconds); };

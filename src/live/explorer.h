@@ -102,6 +102,8 @@ class Explorer {
 
     [[nodiscard]] RenderSettings settings_of(const ExplorerChoice& choice) const;
     [[nodiscard]] bool is_watched() const { return Clock::now() - looked_at_.load() < kWatchedFor; }
+    /// Returns true while a drag goes on; one whose end is never told, as its page is closed, ends after a second.
+    [[nodiscard]] bool does_camera_move() const { return Clock::now() - moved_at_.load() < std::chrono::seconds(1); }
     void fulfil(Wishes wishes);
     void restart(Side& side);
     /// Returns the side that goes on, or null if there is nothing to do.
@@ -115,8 +117,9 @@ class Explorer {
     const ThreadPool& threads_;
     ColorConfig colors_ = ColorConfig::from_environment();
     std::vector<GivenOption> given_;
-    SceneDesc scene_;        ///< cameras, settings and names; the rest is in the world
-    double distance_ = 1.0;  ///< from the scene's own camera to what it turns around, metres
+    SceneDesc scene_;                     ///< cameras, settings and names; the rest is in the world
+    std::optional<std::string> catcher_;  ///< the name of a material that catches shadows, if there is one
+    double distance_ = 1.0;               ///< from the scene's own camera to what it turns around, metres
     std::optional<World> world_;
     std::array<Side, 2> sides_{Side(colors_), Side(colors_)};
 
@@ -124,7 +127,7 @@ class Explorer {
     std::condition_variable news_;
     Wishes wishes_;
     std::atomic<bool> has_wishes_{false};
-    std::atomic<bool> camera_moves_{false};
+    std::atomic<Clock::time_point> moved_at_{};  ///< while a drag goes on: when the camera last moved
     std::atomic<Clock::time_point> looked_at_{};
     std::uint64_t serial_ = 1;
     CameraPlace own_camera_{};  ///< where the scene's own camera stands

@@ -21,7 +21,7 @@ const ENDS = ["finished", "stopped"];
 const canvas = byId("canvas");
 const context = canvas.getContext("2d");
 const pictures = [{}, {}];  // of each side: bitmap, and the version that it shows
-const stage = { zoom: null, x: 0, y: 0, split: 0.5 };  // no zoom: the image fits; x, y: its middle's place in it
+const stage = { zoom: null, x: 0, y: 0, split: 0.5, isExposureChosen: false };  // no zoom: the image fits; x, y: its middle's place in it
 
 /** The full size of the image that is shown, in its own pixels. */
 function imageSize() {
@@ -68,8 +68,9 @@ function draw() {
 }
 
 function look() {
-  const view = new URLSearchParams({ display: byId("display").value, view: byId("view").value,
-    exposure: byId("exposure").value });
+  const view = new URLSearchParams({ display: byId("display").value, view: byId("view").value });
+  // Until it is moved, the image's own holds, which the slider may have rounded.
+  if (stage.isExposureChosen) view.set("exposure", byId("exposure").value);
   if (byId("layer").value) view.set("layer", byId("layer").value);
   return view;
 }
@@ -253,7 +254,7 @@ function showExposure() {
 
 byId("display").addEventListener("change", () => { offerViewsOfDisplay(byId("view").value); loadAll(); });
 for (const id of ["view", "layer"]) byId(id).addEventListener("change", loadAll);
-byId("exposure").addEventListener("input", () => { showExposure(); loadAll(); });
+byId("exposure").addEventListener("input", () => { stage.isExposureChosen = true; showExposure(); loadAll(); });
 
 // ---- What is said of the render ----
 
@@ -342,7 +343,8 @@ function turned(v, axis, angle) {
 }
 
 function moveCamera(way, dx, dy) {
-  let { eye, target, up } = camera.pose;
+  let { eye, target } = camera.pose;
+  const up = unit(camera.pose.up);
   let arm = minus(eye, target);
   const right = unit(cross(up, arm));
   const upwards = unit(cross(arm, right));

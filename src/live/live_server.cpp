@@ -1,10 +1,12 @@
 #include "live/live_server.h"
 
 #include "core/error.h"
+#include "live/connection_watch.h"
 
 #include <array>
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <random>
 #include <string_view>
 #include <thread>
@@ -52,6 +54,13 @@ httplib::Headers safe_headers() {
             {"Cache-Control", "no-store"}};
 }
 
+/// Leaves out the port of an address of the web if it is the usual one, as browsers do.
+std::string_view without_usual_port(std::string_view address) {
+    constexpr std::string_view kUsual = ":80";
+    if (address.ends_with(kUsual)) address.remove_suffix(kUsual.size());
+    return address;
+}
+
 void answer_with(httplib::Response& response, int status, std::string_view text) {
     response.status = status;
     response.set_content(std::string(text), "text/plain; charset=utf-8");
@@ -66,6 +75,7 @@ struct LiveServer::Impl {
     int port = 0;
     httplib::Server server{};
     std::thread thread{};
+    std::optional<ConnectionWatch> watch{};
 
     /// Returns false, with an answer, for a request that is not from the page of this server.
     [[nodiscard]] bool admits(const httplib::Request& request, httplib::Response& response) const {
@@ -73,7 +83,9 @@ struct LiveServer::Impl {
         const std::string host = request.get_header_value("Host");
         const std::string address = fmt::format("{}:{}", kLoopback, port);
         const std::string name = fmt::format("localhost:{}", port);
-        if (request.get_header_value_count("Host") != 1 || (host != address && host != name)) {
+        const std::string_view asked = without_usual_port(host);
+        if (request.get_header_value_count("Host") != 1 ||
+            (asked != without_usual_port(address) && asked != without_usual_port(name))) {
             answer_with(response, 403, "this server answers to 127.0.0.1 and localhost only\n");
             return false;
         }
@@ -82,7 +94,8 @@ struct LiveServer::Impl {
             answer_with(response, 403, "the address lacks the secret that etendue has printed\n");
             return false;
         }
-        if (request.has_header("Origin") && request.get_header_value("Origin") != "http://" + host) {
+        const std::string origin = request.get_header_value("Origin");
+        if (request.has_header("Origin") && without_usual_port(origin) != fmt::format("http://{}", asked)) {
             answer_with(response, 403, "the request comes from another page\n");
             return false;
         }
@@ -93,7 +106,8 @@ struct LiveServer::Impl {
         return true;
     }
 
-    void answer(const httplib::Request& request, httplib::Response& response) const {
+    void answer(const httplib::Request& request, httplib::Response& response) {
+        watch->note_request(request.remote_port);
         LiveRequest asked{.is_post = request.method == "POST", .path = request.path.substr(secret.size() + 2)};
         for (const auto& [name, value] : request.params) asked.query.emplace(name, value);
         asked.body = request.body;
@@ -110,7 +124,7 @@ LiveServer::LiveServer(int port, Handler handler) : impl_(std::make_unique<Impl>
     server.new_task_queue = [] { return new httplib::ThreadPool(kServerThreads); };
     server.set_default_headers(safe_headers());
     server.set_payload_max_length(kMostBody);
-    // Each connection has one request, and none keeps the server alive for long.
+    // Each connection has one request. The times begin anew with each byte: `watch` bounds the whole.
     server.set_keep_alive_max_count(1);
     server.set_keep_alive_timeout(1);
     server.set_read_timeout(1);
@@ -147,6 +161,7 @@ LiveServer::LiveServer(int port, Handler handler) : impl_(std::make_unique<Impl>
                                               "one that is free",
                                               port));
     impl.url = fmt::format("http://{}:{}/{}/", kLoopback, impl.port, impl.secret);
+    impl.watch.emplace(impl.port);
     impl.thread = std::thread([&server] { server.listen_after_bind(); });
     // To be stopped, it must have started.
     while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -154,6 +169,8 @@ LiveServer::LiveServer(int port, Handler handler) : impl_(std::make_unique<Impl>
 
 LiveServer::~LiveServer() {
     impl_->server.stop();
+    // Time for answers that are under way; who sends slowly would take longer.
+    impl_->watch->end_all_after(std::chrono::seconds(1));
     impl_->thread.join();
 }
 

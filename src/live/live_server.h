@@ -50,7 +50,7 @@ class LiveServer {
 
     /// Listens on `port`, or on a free one if that is 0. Throws IoError if it cannot.
     LiveServer(int port, Handler handler);
-    /// Ends open connections within a second or two.
+    /// Ends open connections within a second or two, whatever they send.
     ~LiveServer();
     LiveServer(const LiveServer&) = delete;
     LiveServer& operator=(const LiveServer&) = delete;

@@ -11,7 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,7 +29,8 @@ namespace etendue {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenImages{500};
-constexpr int kPatience = 3000;                            // milliseconds for a connection or for any progress
+constexpr std::chrono::milliseconds kPatience{3000};       // for a connection or for any progress
+constexpr std::chrono::seconds kLastPatience{10};          // of the end, for all
 constexpr std::size_t kMostFloats = std::size_t{1} << 22;  // of a packet, whose length has 32 bits
 
 enum class PacketKind : char { CloseImage = 2, CreateImage = 4, UpdateImageV3 = 6 };
@@ -91,35 +94,6 @@ void send_pixels(const std::string& name, const std::vector<std::string>& channe
     }
 }
 
-/// Waits until the socket can be written to; throws IoError if it cannot in time.
-void wait_until_writable(int socket) {
-    pollfd reader{.fd = socket, .events = POLLOUT, .revents = 0};
-    if (::poll(&reader, 1, kPatience) != 1) throw IoError("it takes nothing");
-}
-
-FileDescriptor connect_to(const TevAddress& address) {
-    addrinfo hints{};
-    hints.ai_socktype = SOCK_STREAM;
-    addrinfo* found = nullptr;
-    if (const int error = ::getaddrinfo(address.host.c_str(), address.port.c_str(), &hints, &found); error != 0)
-        throw IoError(::gai_strerror(error));
-    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> all(found, &::freeaddrinfo);
-    int error = 0;
-    for (const addrinfo* each = found; each != nullptr; each = each->ai_next) {
-        FileDescriptor socket(::socket(each->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-        if (!socket.is_open()) continue;
-        error = ::connect(socket.get(), each->ai_addr, each->ai_addrlen) == 0 ? 0 : errno;
-        if (error == EINPROGRESS) {
-            pollfd connecting{.fd = socket.get(), .events = POLLOUT, .revents = 0};
-            socklen_t size = sizeof error;
-            error = ETIMEDOUT;
-            if (::poll(&connecting, 1, kPatience) == 1) ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size);
-        }
-        if (error == 0) return socket;
-    }
-    throw IoError(system_error_text(error));
-}
-
 }  // namespace
 
 std::optional<TevAddress> TevAddress::parse(const std::string& text) {
@@ -133,6 +107,7 @@ std::optional<TevAddress> TevAddress::parse(const std::string& text) {
 TevViewer::TevViewer(TevAddress address) : address_(std::move(address)), thread_([this] { run(); }) {}
 
 TevViewer::~TevViewer() {
+    deadline_ = Clock::now() + kLastPatience;
     {
         const std::scoped_lock lock(mutex_);
         is_ended_ = true;
@@ -156,7 +131,8 @@ void TevViewer::show(const ImageDescription& image) {
     is_idle_ = false;
     {
         const std::scoped_lock lock(mutex_);
-        next_ = std::make_shared<const OutputFrame>(image.frame);
+        if (next_.empty() || next_.back().first != name_) next_.emplace_back(name_, nullptr);
+        next_.back().second = std::make_shared<const OutputFrame>(image.frame);
     }
     woken_.notify_all();
 }
@@ -167,15 +143,15 @@ void TevViewer::run() {
         std::shared_ptr<const OutputFrame> frame;
         {
             std::unique_lock lock(mutex_);
-            woken_.wait(lock, [&] { return next_ || is_ended_; });
-            if (!next_) return;
-            frame = std::exchange(next_, nullptr);
-            name = name_;
+            woken_.wait(lock, [&] { return !next_.empty() || is_ended_; });
+            if (next_.empty()) return;
+            std::tie(name, frame) = std::move(next_.front());
+            next_.pop_front();
         }
         try {
-            if (!socket_.is_open()) socket_ = connect_to(address_);
+            if (!socket_.is_open()) socket_ = connect();
             send(name, *frame);
-        } catch (const IoError& error) {
+        } catch (const std::exception& error) {
             is_lost_ = true;
             log_warning("warning: --tev {}:{} shows no more of this: {}", address_.host, address_.port, error.what());
             return;
@@ -210,8 +186,48 @@ void TevViewer::send(const std::string& name, const OutputFrame& frame) {
     for (const auto& [channels, image] : parts) send_pixels(name, channels, *image, send_packet);
 }
 
+void TevViewer::wait_until_writable(int socket) const {
+    const Clock::time_point start = Clock::now();
+    // The end may come, and bring the deadline, while this waits.
+    while (Clock::now() < std::min(start + kPatience, deadline_.load())) {
+        pollfd reader{.fd = socket, .events = POLLOUT, .revents = 0};
+        constexpr int kBetweenLooks = 100;  // milliseconds
+        const int ready = ::poll(&reader, 1, kBetweenLooks);
+        if (ready == 1) return;
+        if (ready < 0 && errno != EINTR) throw IoError(system_error_text(errno));
+    }
+    throw IoError("it takes nothing");
+}
+
+FileDescriptor TevViewer::connect() const {
+    addrinfo hints{};
+    hints.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (const int error = ::getaddrinfo(address_.host.c_str(), address_.port.c_str(), &hints, &found); error != 0)
+        throw IoError(::gai_strerror(error));
+    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> all(found, &::freeaddrinfo);
+    int error = 0;
+    for (const addrinfo* each = found; each != nullptr; each = each->ai_next) {
+        FileDescriptor socket(::socket(each->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+        if (!socket.is_open()) continue;
+        error = ::connect(socket.get(), each->ai_addr, each->ai_addrlen) == 0 ? 0 : errno;
+        if (error == EINPROGRESS) {
+            socklen_t size = sizeof error;
+            try {
+                wait_until_writable(socket.get());
+                ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size);
+            } catch (const IoError&) {
+                error = ETIMEDOUT;  // another address may answer
+            }
+        }
+        if (error == 0) return socket;
+    }
+    throw IoError(system_error_text(error));
+}
+
 void TevViewer::send_bytes(std::string_view bytes) const {
     while (!bytes.empty()) {
+        if (Clock::now() > deadline_.load()) throw IoError("it takes too long");
         const ssize_t sent = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (sent > 0)
             bytes.remove_prefix(static_cast<std::size_t>(sent));

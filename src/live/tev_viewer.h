@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -15,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 namespace etendue {
 
@@ -32,7 +34,7 @@ struct TevAddress {
 class TevViewer final : public RenderWatcher {
   public:
     explicit TevViewer(TevAddress address);
-    /// Sends the last image, which takes as long as it takes, up to some seconds.
+    /// Sends what is left to be sent, for ten seconds at most.
     ~TevViewer() override;
 
     void begin(const std::string& title, const std::filesystem::path& output) override;
@@ -48,15 +50,19 @@ class TevViewer final : public RenderWatcher {
     /// Sends `frame` as the image `name`, which is made anew if it is another than the one before. Throws IoError.
     void send(const std::string& name, const OutputFrame& frame);
     void send_bytes(std::string_view bytes) const;
+    /// Waits until `socket` can be written to. Throws IoError if it cannot for some seconds, or the end has come.
+    void wait_until_writable(int socket) const;
+    [[nodiscard]] FileDescriptor connect() const;
 
     const TevAddress address_;
     std::atomic<bool> is_idle_{true};
     std::atomic<bool> is_lost_{false};
     std::atomic<Clock::time_point> shown_{};
-    std::mutex mutex_;  ///< guards the next four
+    std::atomic<Clock::time_point> deadline_{Clock::time_point::max()};  ///< when the thread gives up
+    std::mutex mutex_;                                                   ///< guards the next four
     std::condition_variable woken_;
     std::string name_;
-    std::shared_ptr<const OutputFrame> next_;
+    std::deque<std::pair<std::string, std::shared_ptr<const OutputFrame>>> next_;  ///< one image of each name at most
     bool is_ended_ = false;
     FileDescriptor socket_;  ///< of the thread, as is the next
     std::string sent_name_;

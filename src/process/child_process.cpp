@@ -13,6 +13,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
 #include <sys/poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -66,6 +67,10 @@ bool prepare(const Start& start, int& failure) {
         return false;
     // If stdin was closed here, /dev/null has its number already, and would be closed by exec.
     if (nothing == STDIN_FILENO && ::fcntl(STDIN_FILENO, F_SETFD, 0) != 0) return false;
+    // Sockets that a library has accepted are open for children, too; a kernel that cannot close them leaves them so.
+    (void)::close_range(kFirstFree, ~0u, CLOSE_RANGE_CLOEXEC);
+    // A library that serves pages ignores it, which exec would pass on.
+    if (::signal(SIGPIPE, SIG_DFL) == SIG_ERR) return false;
     if (start.memory && ::setrlimit(RLIMIT_DATA, &*start.memory) != 0) return false;
     return ::setpgid(0, 0) == 0 && ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0;
 }

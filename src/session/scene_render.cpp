@@ -124,7 +124,10 @@ class SceneRender {
 
     SceneRenderResult run() {
         std::optional<Checkpoint> kept = read_kept();
-        if (kept && is_finished_part(*kept)) return finished_part(*kept);
+        if (kept && is_finished_part(*kept)) {
+            for (RenderWatcher* const watcher : request_.watchers) watcher->enter("finished");
+            return finished_part(*kept);
+        }
         if (kept && !request_.quiet)
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);

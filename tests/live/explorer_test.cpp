@@ -137,7 +137,7 @@ TEST(Explorer, RefusesWhatItCannotChange) {
         return ExplorerChoice{.is_shown = true, .integrator = "path", .max_depth = 8, .more = more};
     };
     for (const std::string more : {"--size 9x9", "--environment /etc/passwd", "-o x.exr", "scene", "--max-depth 0",
-                                   "--max-depth", "--heuristic best"})
+                                   "--max-depth", "--heuristic best", "--integrator bdpt"})
         EXPECT_THROW(explorer.choose(0, with(more)), UsageError) << more;
     EXPECT_THROW(explorer.choose(0, {.integrator = "auto", .max_depth = 8}), UsageError);
     EXPECT_THROW(explorer.choose(0, {.integrator = "best", .max_depth = 8}), SceneError);

@@ -3,9 +3,12 @@
 
 #include "core/error.h"
 
+#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -32,6 +35,10 @@ class Connection {
     Connection& operator=(const Connection&) = delete;
 
     [[nodiscard]] bool is_open() const { return is_open_; }
+    /// Sends `text`; returns false if the connection has ended.
+    [[nodiscard]] bool send(const std::string& text) const {
+        return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+    }
     /// Sends `request` and returns all that comes back until the connection ends.
     [[nodiscard]] std::string ask(const std::string& request) const {
         EXPECT_EQ(::send(socket_, request.data(), request.size(), MSG_NOSIGNAL), static_cast<ssize_t>(request.size()));
@@ -135,6 +142,37 @@ TEST(LiveServer, EndsThoughConnectionsAreOpen) {
         ASSERT_TRUE(idle.is_open() && half.is_open());
     }
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(4));
+}
+
+TEST(LiveServer, EndsThoughAClientSendsAByteNowAndThen) {
+    std::atomic<bool> is_over{false};
+    std::thread client;
+    std::chrono::steady_clock::time_point start;
+    {
+        const LiveServer server = echo();
+        client = std::thread([&is_over, port = server.port()] {
+            const Connection slow(port);
+            while (!is_over && slow.send("G")) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        });
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        start = std::chrono::steady_clock::now();
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(4));
+    is_over = true;
+    client.join();
+}
+
+TEST(LiveServer, ShutsAConnectionThatSendsHeadersWithoutEnd) {
+    const LiveServer server = echo();
+    const Connection endless(server.port());
+    ASSERT_TRUE(endless.send("GET / HTTP/1.1\r\n"));
+    const std::string header = "X: " + std::string(8000, 'x') + "\r\n";
+    const auto start = std::chrono::steady_clock::now();
+    const auto passed = [&] { return std::chrono::steady_clock::now() - start; };
+    while (passed() < std::chrono::seconds(3) && endless.send(header))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_LT(passed(), std::chrono::seconds(3));
+    EXPECT_EQ(status_of(Connection(server.port()).ask("GET / HTTP/1.1\r\n\r\n")), "HTTP/1.1 403");
 }
 
 }  // namespace

@@ -137,6 +137,26 @@ TEST(TevViewer, SendsTheImageAndItsLayers) {
     EXPECT_TRUE(packets.is_at_end());
 }
 
+TEST(TevViewer, SendsEachImageUnderItsOwnName) {
+    const FakeTev tev;
+    {
+        TevViewer viewer(tev.address());
+        for (const int width : {1, 2, 3}) {
+            ImageDescription image;
+            image.frame.pixels = ImageF(width, 1, 4);
+            viewer.begin("a", std::to_string(width) + ".exr");
+            viewer.show(image);
+        }
+    }
+    const std::string sent = tev.receive();
+    for (const char width : {1, 2, 3}) {
+        // CreateImage: it takes the focus, its name, and its width, which is one byte of four.
+        const std::string create =
+            std::string({4, 1}) + std::to_string(width) + ".exr" + std::string({0, width, 0, 0, 0});
+        EXPECT_NE(sent.find(create), std::string::npos) << int{width};
+    }
+}
+
 TEST(TevViewer, WarnsOnceAndWantsNothingMoreIfTevIsNotThere) {
     TevAddress nowhere;
     {
