@@ -33,7 +33,7 @@ def build():
     stone = {"onyx": gltf.add_material("onyx", base_color=(0.9, 0.85, 0.75)),
              "jade": gltf.add_material("jade", base_color=(0.2, 0.5, 0.3))}
     for name, albedo, radius, ior in (("onyx", [0.93, 0.84, 0.70], [0.0085, 0.0052, 0.0030], 1.5),
-                                      ("jade", [0.16, 0.52, 0.27], [0.0030, 0.0052, 0.0034], 1.61)):
+                                      ("jade", [0.26, 0.55, 0.36], [0.0030, 0.0052, 0.0034], 1.61)):
         scene.render_json[f"/materials/{name}/subsurface"] = {
             "albedo": albedo, "radius": radius, "ior": ior, "roughness": 0.12}
     figures = {name: revolved(*smooth_outline([(0.01 * r, 0.01 * h) for r, h in outline], 5), 96)
