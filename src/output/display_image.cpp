@@ -10,7 +10,7 @@ namespace etendue {
 
 namespace {
 
-// The colours without alpha, which for associated alpha is the image over black.
+/// Returns the colours without alpha, which for associated alpha is the image over black.
 ImageF over_black(const ImageF& image) {
     ImageF rgb(image.width, image.height, 3);
     const auto channels = static_cast<std::size_t>(image.channels);

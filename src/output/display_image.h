@@ -10,7 +10,7 @@
 
 namespace etendue {
 
-/// How scene-linear pixels come to a display.
+/// Says how scene-linear pixels come to a display.
 struct DisplayView {
     std::string working_space;
     std::string display;    ///< empty for the config's default
@@ -19,11 +19,11 @@ struct DisplayView {
     float exposure = 0.0f;  ///< stops
 };
 
-/// `view` with the config's defaults in place of what is empty.
+/// Returns `view` with the config's defaults in place of what is empty.
 [[nodiscard]] DisplayView with_defaults(DisplayView view, const ColorConfig& config);
 
-/// Three channels in [0, 1], encoded for the display, of `image`, which has three, or four with associated alpha: that
-/// one over black. Throws IoError for other images, SceneError if the config lacks a name.
+/// Returns three channels in [0, 1], encoded for the display, of `image`, which has three, or four with associated
+/// alpha: that one over black. Throws IoError for other images, SceneError if the config lacks a name.
 [[nodiscard]] ImageF display_image(const ImageF& image, const DisplayView& view, const ColorConfig& config);
 
 /// Returns what a PNG of an image that was made by `view` says of the view; `view` has no empty names.

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,7 +15,7 @@ namespace etendue {
 
 namespace {
 
-/// A rectangle of light with soft edges, infinitely far away and upright.
+/// Shines as a rectangle of light with soft edges, infinitely far away and upright.
 struct Softbox {
     Vec3f towards;      ///< its middle, of unit length
     float half_width;   ///< tangent of half the angle under which it is seen
@@ -25,18 +27,18 @@ Vec3f at_angles(float azimuth, float elevation) {
     return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
 }
 
-/// Width of the soft edge, in the units of the softbox's half sides.
+/// Sets the width of the soft edge, in the units of the softbox's half sides.
 constexpr float kEdge = 0.35f;
 
-/// Radiance of the sky above, where no softbox is.
+/// Sets the radiance of the sky above, where no softbox is.
 constexpr float kTop = 0.16f;
 
-/// The sky is as bright as the ground up to the first height over the horizon and as above from the second one on:
-/// sines of the elevation.
+/// Has the sine of the elevation up to which the sky is as bright as the ground.
 constexpr float kBackdropEnds = 0.3f;
+/// Has the sine of the elevation from which on the sky is as bright as above.
 constexpr float kTopBegins = 0.7f;
 
-/// Sine of the elevation below which no softbox shines, as the backdrop is to be even.
+/// Has the sine of the elevation below which no softbox shines, as the backdrop is to be even.
 constexpr float kBoxesBegin = 0.06f;
 
 float smooth_step(float from, float to, float x) {
@@ -44,7 +46,7 @@ float smooth_step(float from, float to, float x) {
     return t * t * (3.0f - 2.0f * t);
 }
 
-/// The key to the left of the front, the fill to its right, and the rim behind.
+/// Returns the key to the left of the front, the fill to its right, and the rim behind.
 const std::array<Softbox, 3>& softboxes() {
     static const std::array<Softbox, 3> boxes{{
         {at_angles(-0.7f, 0.7f), 0.5f, 0.45f, 3.418f},
@@ -125,7 +127,7 @@ Handle<T> add_to(std::vector<T>& all, T one) {
     return {static_cast<int>(all.size()) - 1};
 }
 
-/// The disk is solid under the scene and fades away around it, so that no edge is seen even where a shadow reaches it.
+/// Adds a disk that is solid under the scene and fades away around it, so that no edge is seen even in a shadow.
 void add_ground(const Vec3f& centre, float radius, SceneDesc& scene) {
     constexpr float kSolid = 2.0f;
     constexpr float kFaded = 5.0f;
@@ -153,6 +155,16 @@ void add_ground(const Vec3f& centre, float radius, SceneDesc& scene) {
     scene.instances.push_back(std::move(instance));
 }
 
+/// Returns how high the eye of the chosen camera is over the scene's origin; none without a camera.
+std::optional<float> eye_height(const SceneDesc& scene) {
+    if (const std::optional<CameraPlace>& place = scene.settings.camera_place)
+        return static_cast<float>(place->eye.y - scene.origin.y);
+    const CameraDesc* const first = scene.cameras.empty() ? nullptr : &scene.cameras.front();
+    const std::string& name = scene.settings.camera;
+    const CameraDesc* const camera = name.empty() ? first : find_camera(scene, name);
+    return camera != nullptr ? std::optional(camera->to_world[3][1]) : std::nullopt;
+}
+
 }  // namespace
 
 float studio_radiance(const Vec3f& direction) {
@@ -164,9 +176,16 @@ float studio_radiance(const Vec3f& direction) {
 }
 
 void add_studio(SceneDesc& scene, ProblemList& problems) {
-    scene.environment = {};
-    scene.environment.enabled = true;
-    scene.environment.is_studio = true;
+    EnvironmentDesc& environment = scene.environment;
+    environment.image.clear();
+    environment.cube.reset();
+    environment.enabled = true;
+    environment.is_studio = true;
+    // It takes the place of an environment that does not shine.
+    if (is_black(environment.color * environment.scale)) {
+        environment.color = EnvironmentDesc().color;
+        environment.scale = EnvironmentDesc().scale;
+    }
     if (!scene.settings.ground) return;
     const Bounds bounds = compute_bounds(scene);
     const float radius = bounds.empty() ? 0.0f : 0.5f * length(bounds.size());
@@ -176,10 +195,8 @@ void add_studio(SceneDesc& scene, ProblemList& problems) {
     constexpr float kGap = 1e-3f;
     Vec3f centre = bounds.center();
     centre.y = lowest - kGap * radius;
-    const CameraDesc* const first = scene.cameras.empty() ? nullptr : &scene.cameras.front();
-    const std::string& name = scene.settings.camera;
-    const CameraDesc* const camera = name.empty() ? first : find_camera(scene, name);
-    if (camera != nullptr && camera->to_world[3][1] <= centre.y) {
+    const std::optional<float> eye = eye_height(scene);
+    if (eye && *eye <= centre.y) {
         problems.note({scene.file.string(), {}}, "the camera is below the scene: the studio has no ground");
         return;
     }

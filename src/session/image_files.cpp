@@ -17,6 +17,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -25,30 +26,51 @@ namespace etendue {
 
 namespace {
 
+/// Delimits a part of a string: from `begin` up to `end`.
+struct TextSpan {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+/// Finds the number of `frame`, with its sign, in the name of one of its files: the last run of as many digits as
+/// `frame_path` writes that has this value, since a take or a size may follow it (shot.0007.v2.json).
+std::optional<TextSpan> find_frame_number(const std::string& name, int frame) {
+    constexpr std::string_view kDigits = "0123456789";
+    constexpr std::size_t kLeastDigits = 4;
+    std::size_t last = name.find_last_of(kDigits);
+    while (last != std::string::npos) {
+        const std::size_t begin = name.find_last_not_of(kDigits, last) + 1;  // 0 if all are digits
+        const std::size_t sign = frame < 0 && begin > 0 && name[begin - 1] == '-' ? 1 : 0;
+        int number = 0;
+        const char* const end = name.data() + last + 1;
+        const auto [read_to, problem] = std::from_chars(name.data() + begin - sign, end, number);
+        if (last + 1 - begin >= kLeastDigits && problem == std::errc() && read_to == end && number == frame)
+            return TextSpan{begin - sign, last + 1};
+        last = begin == 0 ? std::string::npos : name.find_last_of(kDigits, begin - 1);
+    }
+    return std::nullopt;
+}
+
 /// Returns the exposure that was chosen for the first of the frames before number `frame` that lie beside
 /// `statistics`, the file that this one will have, if they are of `scene`.
 std::optional<float> exposure_of_sequence(const std::filesystem::path& statistics, int frame,
                                           const std::string& scene) {
-    if (frame < 0) return std::nullopt;
-    // The last run of digits that is the frame's number: 0007 in shot.0007.json.
     const std::string name = statistics.filename().string();
-    std::size_t end = name.find_last_of("0123456789");
-    if (end == std::string::npos) return std::nullopt;
-    const std::size_t begin = name.find_last_not_of("0123456789", end) + 1;  // 0 if all are digits
-    ++end;
+    const std::optional<TextSpan> place = find_frame_number(name, frame);
+    if (!place) return std::nullopt;
+    const std::string before_number = name.substr(0, place->begin);
+    const std::string after_number = name.substr(place->end);
     std::map<int, std::filesystem::path> before;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(absolute(statistics).parent_path(), ignored)) {
         const std::string other = entry.path().filename().string();
-        const std::size_t rest = name.size() - end;
-        if (other.size() <= begin + rest || !other.starts_with(name.substr(0, begin)) ||
-            !other.ends_with(name.substr(end)))
+        if (other.size() <= before_number.size() + after_number.size() || !other.starts_with(before_number) ||
+            !other.ends_with(after_number))
             continue;
         int number = 0;
-        const char* const last = other.data() + other.size() - rest;
-        const auto [read_to, problem] = std::from_chars(other.data() + begin, last, number);
-        if (problem == std::errc() && read_to == last && number >= 0 && number < frame)
-            before.emplace(number, entry.path());
+        const char* const last = other.data() + other.size() - after_number.size();
+        const auto [read_to, problem] = std::from_chars(other.data() + before_number.size(), last, number);
+        if (problem == std::errc() && read_to == last && number < frame) before.emplace(number, entry.path());
     }
     for (const auto& [number, path] : before) {
         std::ifstream file(path);

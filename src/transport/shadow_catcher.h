@@ -12,10 +12,16 @@ namespace etendue {
 /// Counts the samples of the lamps and of the environment that each sample of a pixel takes where it meets a catcher.
 inline constexpr std::uint32_t kCatcherSamples = 16;
 
-/// Returns the share, in [0, 1], that surfaces take of the direct light that would arrive at `point` without them, on
-/// the side of `wo`: 1 less the irradiance with surfaces over that without. Both are estimated from one set of samples;
-/// where no light would arrive, the share is 0.
-[[nodiscard]] float caught_shadow(const World& world, const SurfacePoint& point, const Vec3f& wo, float time,
-                                  const SampleNumbers& numbers);
+/// Holds what a sample of a pixel finds of the shadow on a catcher.
+struct CaughtShadow {
+    float share = 0.0f;      ///< of the direct light that surfaces take, in [0, 1]
+    std::uint32_t rays = 0;  ///< shadow rays that were traced
+};
+
+/// Returns the share that surfaces take of the direct light that would arrive at `point` without them, on the side of
+/// `wo`: 1 less the irradiance with surfaces over that without. Both are estimated from one set of samples, which goes
+/// on for a while if it finds no light; where no light would arrive, the share is 0.
+[[nodiscard]] CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const Vec3f& wo, float time,
+                                         const SampleNumbers& numbers);
 
 }  // namespace etendue

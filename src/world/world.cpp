@@ -1,5 +1,6 @@
 #include "world/world.h"
 
+#include "core/error.h"
 #include "core/vector_bytes.h"
 #include "light/light.h"
 #include "world/contacts.h"
@@ -21,6 +22,9 @@ WorldParts::WorldParts(WorldData from)
     // Without its walls, a body around the camera would have no end.
     if (!media.camera_interior().is_empty()) data.camera = without_far_clip(data.camera);
     traits = find_traits(data, media, lights, emitters);
+    // A catcher shows what is infinitely far behind it, through which nothing of a medium around the camera would pass.
+    if (traits.has_shadow_catchers && media.within(media.camera_interior()) != nullptr)
+        throw SceneError({}, "the camera is in a medium, through which it cannot see materials that catch shadows");
 }
 
 World::World(WorldData data) : parts_(std::make_unique<WorldParts>(std::move(data))) {}

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -119,6 +120,24 @@ TEST_F(FirstPictures, FramesHaveTheExposureOfTheFirst) {
     EXPECT_EQ(exposure_of("f.0002").at("stops"), -3.5);
     (void)render({scene, "--frames", "2:2", "-o", "f.exr", "--force", "--exposure", "0.5"});
     EXPECT_EQ(exposure_of("f.0002").at("stops"), 0.5);
+}
+
+TEST_F(FirstPictures, FramesHaveTheExposureOfTheFirstWhateverFollowsTheirNumber) {
+    write_scene(work_ / "walk");
+    const std::string scene = animated_scene((work_ / "walk").string());
+    for (const auto& [before, after] : {std::pair("a_", "_2k"), {"b.", ".v2"}, {"c-", ""}}) {
+        const auto name = [&](const std::string& number) { return before + number + after; };
+        (void)render({scene, "--frames=-1:2", "-o", name("####") + ".exr"});
+        EXPECT_TRUE(exposure_of(name("-0001")).at("chosen").get<std::string>().starts_with("half of it"));
+        for (const char* const number : {"0000", "0001", "0002"})
+            EXPECT_EQ(exposure_of(name(number)).at("chosen"), "that of the first frame") << name(number);
+    }
+    // Another take has its own.
+    json other = json::parse(read_file(work_ / "b.-0001.v2.json"));
+    other["exposure"]["stops"] = -3.5;
+    write_file(work_ / "b.0002.v1.json", other.dump());
+    (void)render({scene, "--frames=2:2", "-o", "b.####.v2.exr", "--force"});
+    EXPECT_NE(exposure_of("b.0002.v2").at("stops"), -3.5);
 }
 
 TEST_F(FirstPictures, ShadowCatchersAreForEyePaths) {

@@ -1,15 +1,20 @@
 // The studio, in which all integrators see the same, and shadow catchers, which stand for a ground that is elsewhere.
 #include "scene/studio.h"
 
+#include "core/error.h"
+#include "image/write.h"
 #include "integrator/agreement_render.h"
 #include "integrator/closed_form_scene.h"
 #include "integrator/integrator.h"
 #include "support/chi2.h"
+#include "support/temporary_folder.h"
 #include "world/test_scene.h"
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -166,6 +171,39 @@ TEST(ShadowCatcher, HasAlphaOfTheShadowAlone) {
         EXPECT_LT(least, 0.01) << "where nothing shadows";
         EXPECT_GT(shadows, 5u) << "in the shadow of the sun the catcher shows nothing of itself";
     }
+}
+
+// Nearly all samples that follow the radiance lie behind the catcher; a wall hides half of the sky above it.
+TEST(ShadowCatcher, FindsTheSkyThatIsMuchDarkerThanWhatIsBehindIt) {
+    ImageF sky(64, 32, 3);
+    for (std::size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = i < sky.pixels.size() / 2 ? 1.0f : 40.0f;
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "sky.exr";
+    write_image(file, sky, {.depth = PixelDepth::Float});
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    scene.environment.image = file;
+    scene.environment.visible_to_camera = false;
+    add_object(scene, quad_facing_up({0.0f, 0.0f, 0.0f}, 20.0f), add_material(scene, catcher()));
+    add_object(scene, quad({0.05f, 0.0f, 0.0f}, {0.0f, 0.0f, 90.0f}, {0.0f, 90.0f, 0.0f}),
+               add_material(scene, diffuse(Rgb(0.5f))));
+    look_at(scene, {-1.0f, 3.0f, 0.0f}, {0.0f, 0.0f, 0.0f});
+    scene.cameras.at(0).yfov = 0.002f;
+    const Pixels pixels = render_alone(scene, "path", 8);
+    double sum = 0.0;
+    for (const double alpha : pixels.alphas) sum += alpha;
+    EXPECT_NEAR(sum / double(pixels.alphas.size()), 0.5, 0.01);
+}
+
+TEST(ShadowCatcher, IsRefusedWhereTheCameraIsInAMedium) {
+    SceneDesc scene = ball_over_ground(catcher());
+    MaterialDesc fog;
+    fog.override_model = DielectricDesc{.ior = 1.01f, .volume = {.closed = true}};
+    add_object(scene, sphere({0.0f, 0.0f, 0.0f}, 40.0f, 12), add_material(scene, fog));
+    EXPECT_NO_THROW((void)compile(scene)) << "the body is empty";
+    std::get<DielectricDesc>(scene.materials.back().override_model).volume.attenuation_distance = 10.0f;
+    std::get<DielectricDesc>(scene.materials.back().override_model).volume.attenuation_color = Rgb(0.5f);
+    EXPECT_THROW((void)compile(scene), SceneError);
 }
 
 TEST(ShadowCatcher, DarkensTheEnvironmentThatTheCameraSees) {

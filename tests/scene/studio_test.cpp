@@ -109,5 +109,38 @@ TEST(Studio, HasNoGroundWhereNoneIsWanted) {
     EXPECT_NE(problems.all()[0].message.find("camera is below"), std::string::npos);
 }
 
+TEST(Studio, KeepsHowTheEnvironmentIsTurnedAndSeen) {
+    SceneDesc scene = dark_scene();
+    scene.environment.image = "sky.exr";
+    scene.environment.rotation = 1.0f;
+    scene.environment.scale = 0.0f;
+    scene.environment.visible_to_camera = false;
+    ProblemList problems;
+    add_studio(scene, problems);
+    EXPECT_TRUE(scene.environment.enabled);
+    EXPECT_TRUE(scene.environment.is_studio);
+    EXPECT_TRUE(scene.environment.image.empty());
+    EXPECT_EQ(scene.environment.rotation, 1.0f);
+    EXPECT_FALSE(scene.environment.visible_to_camera);
+    EXPECT_EQ(scene.environment.scale, 1.0f) << "it shines in place of what is black";
+    scene.environment.scale = 2.0f;
+    add_studio(scene, problems);
+    EXPECT_EQ(scene.environment.scale, 2.0f);
+}
+
+TEST(Studio, GroundIsLeftOutBelowTheEyeThatIsGiven) {
+    SceneDesc scene = dark_scene();
+    scene.origin = {0.0, 1000.0, 0.0};
+    scene.cameras.at(0).to_world[3][1] = 100.0f;
+    scene.settings.camera_place = CameraPlace{.eye = {0.0, 900.0, 0.0}};
+    ProblemList problems;
+    add_studio(scene, problems);
+    EXPECT_EQ(ground_of(scene), nullptr);
+    scene.settings.camera_place->eye.y = 1100.0;
+    scene.cameras.at(0).to_world[3][1] = -100.0f;
+    add_studio(scene, problems);
+    EXPECT_NE(ground_of(scene), nullptr);
+}
+
 }  // namespace
 }  // namespace etendue

@@ -69,11 +69,12 @@ void PathWave::catch_shadows(const World& world, const TileJob& job, std::size_t
         if (!world.materials().catches_shadows(paths_.hits[i])) continue;
         const Ray ray = paths_.ray(i);
         const SurfacePoint point = world.geometry().surface_point(paths_.hits[i]);
-        const float shadow = caught_shadow(world, point, -ray.direction, ray.time, {job.sequence, paths_.key(i)});
-        counters.rays[RayKind::Shadow] += kCatcherSamples;
+        const CaughtShadow shadow =
+            caught_shadow(world, point, -ray.direction, ray.time, {job.sequence, paths_.key(i)});
+        counters.rays[RayKind::Shadow] += shadow.rays;
         paths_.hits[i] = {};
-        paths_.throughput.set(i, Rgb(shows_environment ? 1.0f - shadow : 0.0f));
-        if (!shows_environment) light_.set_alpha(i, shadow);
+        paths_.throughput.set(i, Rgb(shows_environment ? 1.0f - shadow.share : 0.0f));
+        if (!shows_environment) light_.set_alpha(i, shadow.share);
     }
 }
 
