@@ -130,6 +130,17 @@ TEST(Explorer, GivesBothImagesEqualTime) {
     EXPECT_GT(sides[0].cpu_seconds, 0.0);
 }
 
+TEST(Explorer, MovesACameraFinelyFarFromTheOrigin) {
+    AtWork work;
+    const std::string place = "6378137.25,0.5,2.5,6378137,0,0";
+    work.explorer().move_camera(place, false);
+    ASSERT_TRUE(work.wait_for(0, 1));
+    for (int tries = 0; tries < 200 && work.explorer().camera().eye.x < 1.0; ++tries)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_NE(work.explorer().sides()[0].command.find("'" + place + "'"), std::string::npos)
+        << work.explorer().sides()[0].command;
+}
+
 TEST(Explorer, RefusesWhatItCannotChange) {
     AtWork work;
     Explorer& explorer = work.explorer();

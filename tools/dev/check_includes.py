@@ -88,7 +88,7 @@ THIRD_PARTY = [
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),
     (r"sys/types\.h", ANY_ROOM, SHOWN),
     (r"(unistd|dlfcn|elf|fcntl|fnmatch|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),
-    (r"netdb\.h", "live", WRAPPED),
+    (r"(netdb|netinet/in)\.h", "live", WRAPPED),
 ]
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")  # <vector>, <cstdint>: no slash, no suffix
 
