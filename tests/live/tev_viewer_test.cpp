@@ -149,7 +149,7 @@ TEST(TevViewer, SendsEachImageUnderItsOwnName) {
         }
     }
     const std::string sent = tev.receive();
-    for (const char width : {1, 2, 3}) {
+    for (const char width : {'\1', '\2', '\3'}) {
         // CreateImage: it takes the focus, its name, and its width, which is one byte of four.
         const std::string create =
             std::string({4, 1}) + std::to_string(width) + ".exr" + std::string({0, width, 0, 0, 0});
