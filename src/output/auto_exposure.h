@@ -12,8 +12,8 @@ namespace etendue {
 /// image is left as it is.
 inline constexpr float kHighlight = 1.5f;
 inline constexpr float kDimHighlight = 0.4f;
-/// Tells lamps from highlights: a lamp is brighter than this many times the luminance that 75% of the pixels stay below,
-/// and than `kHighlight`.
+/// Tells lamps from highlights: a lamp is brighter than this many times the luminance that 75% of the pixels stay
+/// below, and than `kHighlight`.
 inline constexpr float kLamp = 16.0f;
 /// Luminance that half of the pixels are to reach, for which an image is brightened by up to `kMostRaise` stops more.
 inline constexpr float kDimMedian = 0.03f;
