@@ -499,21 +499,22 @@ constexpr std::array kRows{
             .decides = Decides::Samples,
             .help = "How `bdpt` and `vcm` weigh their strategies: `balance`, or `power` with the exponent 2",
             .place = named_at<kHeuristicNames>([](auto& s) -> auto& { return s.integrator.heuristic; })},
-    Setting{.pointer = "/integrator/strategy",
-            .option = "--strategy",
-            .type = Form{kStrategyForm, "^([0-9]+,[0-9]+|merging)$", parses<parse_strategy>},
-            .decides = Decides::Samples,
-            .default_text = "all",
-            .help = "Show only paths of `bdpt` or `vcm` with S vertices from the light and T from the eye, counting "
-                    "those on the light and on the lens; or `merging`, those that `vcm` merges",
-            .page = "integrators.md#one-strategy-at-a-time",
-            .place = parsed_at<parse_strategy, strategy_value>([](auto& s) -> auto& { return s.integrator.strategy; })},
+    Setting{
+        .pointer = "/integrator/strategy",
+        .option = "--strategy",
+        .type = Form{kStrategyForm, "^([0-9]+,[0-9]+|merging)$", parses<parse_strategy>},
+        .decides = Decides::Samples,
+        .default_text = "all",
+        .help = "Show only paths with S vertices from the light and T from the eye, both ends counted, or those that "
+                "`vcm` merges",
+        .page = "integrators.md#one-strategy-at-a-time",
+        .place = parsed_at<parse_strategy, strategy_value>([](auto& s) -> auto& { return s.integrator.strategy; })},
     Setting{
         .pointer = "/integrator/weighted",
         .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},
         .decides = Decides::Samples,
-        .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
-                "if no other strategy made them, and merges are photon mapping's: at the first vertex that merges",
+        .help = "Whether the paths of the strategy are weighted; if not, they show as if no other strategy made them, "
+                "and merges as photon mapping makes them",
         .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
     Setting{
         .pointer = "/integrator/connections",
