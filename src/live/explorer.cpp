@@ -3,6 +3,7 @@
 #include "core/log.h"
 #include "integrator/integrator.h"
 #include "picture/integrator_choice.h"
+#include "picture/scene_completion.h"
 #include "processor/ray_code.h"
 #include "render/render.h"
 #include "render/tiles.h"
@@ -83,8 +84,7 @@ Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given
     // Images here are whole, and have no end.
     for (const char* const name : {"--crop", "--overscan", "--error"}) given_ = without(std::move(given_), name);
     SceneDesc scene = std::move(prepared.scene);
-    const auto catcher = std::ranges::find(scene.materials, true, &MaterialDesc::catches_shadows);
-    if (catcher != scene.materials.end()) catcher_ = catcher->name;
+    catcher_ = shadow_catcher(scene);
     const std::string working_space = resolve_colors(scene.settings, colors_);
     const Bounds bounds = compute_bounds(scene);
     scene_.name = scene.name;
@@ -132,12 +132,8 @@ RenderSettings Explorer::settings_of(const ExplorerChoice& choice) const {
     overrides.apply(settings);
     if (settings.integrator.type == kAutoIntegrator) throw UsageError("'auto' is no integrator: choose one");
     (void)create_integrator(settings);
-    const IntegratorEntry* const entry = find_integrator(settings.integrator.type);
-    if (catcher_ && entry != nullptr && !entry->catches_shadows && entry->shows_light)
-        throw UsageError(
-            fmt::format("'{}' does not see what the material '{}' is to catch; 'path', 'direct' and "
-                        "'naive' see shadow catchers",
-                        settings.integrator.type, *catcher_));
+    if (const auto reason = catcher_ ? misses_shadows(settings.integrator.type, *catcher_) : std::nullopt)
+        throw UsageError(*reason);
     settings.film.crop.reset();
     settings.film.overscan = 0.0f;
     settings.relative_error = 0.0;

@@ -4,11 +4,20 @@
 #include "core/error.h"
 #include "scene/scene_desc.h"
 
+#include <optional>
+#include <string>
+
 namespace etendue {
 
 /// Adds a camera and a light where `scene` has none, applies the variant of its materials, and has `path` render shadow
 /// catchers unless an integrator is asked for; `problems` notes what was added and chosen. Throws SceneError for what
 /// `validate` finds, and for integrators that do not see shadow catchers.
 void complete_scene(SceneDesc& scene, ProblemList& problems);
+
+/// Returns the name of a material that catches shadows, or nothing if none does.
+[[nodiscard]] std::optional<std::string> shadow_catcher(const SceneDesc& scene);
+
+/// Returns why `integrator` cannot show the shadows that the material `catcher` catches, or nothing if it can.
+[[nodiscard]] std::optional<std::string> misses_shadows(const std::string& integrator, const std::string& catcher);
 
 }  // namespace etendue
