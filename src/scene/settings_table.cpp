@@ -383,7 +383,7 @@ constexpr std::array kRows{
     Setting{.pointer = "/fps",
             .option = "--fps",
             .type = RealNumber{{.min = 0.0, .open_min = true}},
-            .decides = Decides::Schedule,
+            .decides = Decides::Sums,  // layers of motion, and what headers say
             .help = "Frames per second of a sequence",
             .place = at([](auto& s) -> auto& { return s.fps; })},
     Setting{.pointer = "/variant",

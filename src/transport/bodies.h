@@ -17,9 +17,9 @@ namespace etendue {
     return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
 }
 
-/// Returns the bodies that a ray starts in that leaves a light with `emission`.
-[[nodiscard]] inline Interior interior_at_light(const World& world, const Emission& emission) {
-    return world.traits().has_bodies ? world.emitters().interior(emission) : Interior();
+/// Returns the bodies in which a ray starts that leaves the point of `emission` along `direction`.
+[[nodiscard]] inline Interior interior_at_light(const World& world, const Emission& emission, const Vec3f& direction) {
+    return world.traits().has_bodies ? world.emitters().interior(emission, direction) : Interior();
 }
 
 }  // namespace etendue

@@ -25,11 +25,11 @@ std::optional<FilmLight> lamp_to_camera(const SubpathSample& sample, const Emiss
     if (is_black(emitted.radiance)) return {};
     const float share = weigh(*view, emitted.cosine);
     if (share == 0.0f) return {};
-    Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
+    Ray ray = connecting_ray(world.emitters().origin(emission, view->direction), view->camera.lens);
     ray.time = time;
     ray.alpha_key = sample.connection_key(SubpathEnd::AtLight, 0);
-    return FilmLight{view->camera.film, emitted.radiance *
-                                            transmittance(world, interior_at_light(world, emission), view->distance) *
+    const Interior interior = interior_at_light(world, emission, view->direction);
+    return FilmLight{view->camera.film, emitted.radiance * transmittance(world, interior, view->distance) *
                                             (emitted.cosine * view->camera.importance_area * share /
                                              (emission.sample.pdf_position_area * emission.probability)) *
                                             visibility(world, ray, nullptr, RayEnds::ToCamera)};

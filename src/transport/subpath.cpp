@@ -118,7 +118,7 @@ std::optional<Subpath> begin_subpath_at_light(const SubpathSample& sample) {
     subpath.roulette_scale = 1.0f / max_component(emission.weight);
     subpath.from = emission.sample.position;
     subpath.departing = leave_light(sample.mis, emission);
-    subpath.interior = interior_at_light(world, emission);
+    subpath.interior = interior_at_light(world, emission, emission.ray.direction);
     return subpath;
 }
 

@@ -37,10 +37,11 @@ struct LampCollector {
         if (words.are_followed()) words.end_at_light(way.words, words.surface_source(vertex.surface), shares);
         Rgb left = Rgb(1.0f);
         for (const ExpressionShare& share : shares) {
-            seen.push_back({light * share.share, share.expressions, way.first_position});
+            seen.push_back({light * share.share, share.expressions, way.first_position, path.ray.time});
             left -= share.share;
         }
-        if (shares.empty() || max_component(left) > 1e-4f) seen.push_back({light * left, 0, way.first_position});
+        if (shares.empty() || max_component(left) > 1e-4f)
+            seen.push_back({light * left, 0, way.first_position, path.ray.time});
     }
     [[nodiscard]] WayPassed after(WayPassed way, const Vertex& vertex, const BsdfSample& delta) const {
         if (!way.has_first) way.first_position = vertex.position;

@@ -20,7 +20,8 @@ namespace etendue {
 struct LampSeen {
     Rgb light;                       ///< W/(m² sr)
     ExpressionMask expressions = 0;  ///< of which it is a part
-    Vec3f first_position{0.0f};      ///< metres, what the camera ray has met
+    Vec3f first_position{0.0f};      ///< metres, of the surface that the camera ray has met
+    float time = 0.0f;               ///< of the camera ray, [0, 1] while the shutter is open
 };
 
 /// Returns where `film`, pixels of the full image of `job`, is on the film of the camera, in [0, 1)² within the image.

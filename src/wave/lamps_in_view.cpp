@@ -341,7 +341,7 @@ void LampsInView::sample_images(TileBuffer& tile, RenderCounters& counters) {
                  .offset = {},
                  .light = light,
                  .expressions = seen.expressions,
-                 .depth = is_deep ? world_->camera().depth(seen.first_position, 0.0f) : 0.0f},
+                 .depth = is_deep ? world_->camera().depth(seen.first_position, seen.time) : 0.0f},
                 pixel, light, tile);
         },
         counters);

@@ -15,6 +15,11 @@ void Interior::leave(std::uint32_t body) {
     *found = bodies_[--count_];
 }
 
+bool operator==(const Interior& a, const Interior& b) {
+    return std::is_permutation(a.bodies_.begin(), a.bodies_.begin() + a.count_, b.bodies_.begin(),
+                               b.bodies_.begin() + b.count_);
+}
+
 std::uint32_t Interior::filling() const {
     return count_ == 0 ? kNone : *std::min_element(bodies_.begin(), bodies_.begin() + count_);
 }

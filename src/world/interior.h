@@ -21,8 +21,11 @@ class Interior {
     /// Takes a body out of the set; one that is not in the set is ignored, as meshes with holes make it happen.
     void leave(std::uint32_t body);
     [[nodiscard]] bool is_empty() const { return count_ == 0; }
-    /// The body that fills the space, kNone in the open.
+    /// Returns the body that fills the space, kNone in the open.
     [[nodiscard]] std::uint32_t filling() const;
+
+    /// Returns whether both have the same bodies, in whatever order these were entered.
+    friend bool operator==(const Interior& a, const Interior& b);
 
   private:
     std::array<std::uint32_t, kCapacity> bodies_{};

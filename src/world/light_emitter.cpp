@@ -6,6 +6,7 @@
 #include "world/mesh_emission.h"
 
 #include <algorithm>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -86,9 +87,7 @@ Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool
         sample.radiance =
             mesh_emission(data_, materials_, choice.index, sample.triangle, sample.barycentric, sample.direction);
     emission.weight = sample.weight() / choice.probability;
-    emission.ray.origin = sample.origin(sample.direction);
-    for (const Vec3f& plane : data_.planes_of(choice.index))
-        emission.ray.origin += dot(plane, sample.direction) >= 0.0f ? plane : -plane;
+    emission.ray.origin = origin(emission, sample.direction);
     emission.ray.direction = sample.direction;
     emission.ray.time = time;
     return emission;
@@ -113,9 +112,15 @@ SurfaceEmission LightEmitter::surface_emission(const Emission& emission, const V
             abs_dot(normal, direction)};
 }
 
-Interior LightEmitter::interior(const Emission& emission) const {
-    return data_.planes_of(emission.light).empty() ? media_.light_interior(emission.light)
-                                                   : media_.interior_at(emission.ray.origin);
+Vec3f LightEmitter::origin(const Emission& emission, const Vec3f& direction) const {
+    Vec3f start = emission.sample.origin(direction);
+    for (const Vec3f& plane : data_.planes_of(emission.light)) start += dot(plane, direction) >= 0.0f ? plane : -plane;
+    return start;
+}
+
+Interior LightEmitter::interior(const Emission& emission, const Vec3f& direction) const {
+    const std::optional<Interior>& everywhere = media_.light_interior(emission.light);
+    return everywhere ? *everywhere : media_.interior_at(origin(emission, direction));
 }
 
 float LightEmitter::pdf(const EmittedRay& ray, bool aims) const {

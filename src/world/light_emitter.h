@@ -51,8 +51,11 @@ class LightEmitter {
     /// Evaluates the light that leaves the starting point of `emission` along `direction`, towards the camera; black
     /// without a surface, and where that is hidden from the camera.
     [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
-    /// Returns the bodies that a ray starts in that leaves a light.
-    [[nodiscard]] Interior interior(const Emission& emission) const;
+    /// Returns where a ray starts that leaves the point of `emission` along `direction`, clear of the surfaces in which
+    /// its light lies.
+    [[nodiscard]] Vec3f origin(const Emission& emission, const Vec3f& direction) const;
+    /// Returns the bodies in which a ray starts that leaves the point of `emission` along `direction`.
+    [[nodiscard]] Interior interior(const Emission& emission, const Vec3f& direction) const;
 
     /// Returns the probability with which `sample` chooses the light of this index.
     [[nodiscard]] float probability(std::uint32_t light) const { return selector_.probability(light); }

@@ -3,6 +3,7 @@
 #include "bsdf/fresnel.h"
 #include "core/position_error.h"
 #include "light/light.h"
+#include "sampling/sampler.h"
 #include "world/contacts.h"
 #include "world/scene_camera.h"
 #include "world/scene_geometry.h"
@@ -38,12 +39,24 @@ Media::Media(const WorldData& data, const SceneGeometry& geometry, const SceneCa
     : data_(data), geometry_(geometry) {
     if (data_.filling_of_body.empty()) return;
     camera_interior_ = interior_at(camera.generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin);
-    // Where a ray starts that leaves the middle of the light on its front.
-    const EmissionNumbers front{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.25f, 0.5f}};
-    for (const Light& light : data_.lights) {
-        const EmissionSample middle = sample_emission(light, front, data_.bounding_sphere());
-        light_interiors_.push_back(interior_at(middle.origin(middle.direction)));
+    for (std::uint32_t light = 0; light < data_.lights.size(); ++light)
+        light_interiors_.push_back(find_light_interior(light));
+}
+
+std::optional<Interior> Media::find_light_interior(std::uint32_t light) const {
+    // A part of the light that is in other bodies is missed with the chance (1 - its share of the emission)^32.
+    constexpr std::uint32_t kRays = 32;
+    if (!data_.planes_of(light).empty()) return {};
+    std::optional<Interior> common;
+    for (std::uint32_t i = 0; i < kRays; ++i) {
+        const auto numbers = [&](std::uint32_t d) { return sample_2d(SampleSequence::Sobol, {.index = i}, d); };
+        const EmissionNumbers u{.triangle = numbers(0), .position = numbers(1), .direction = numbers(2)};
+        const EmissionSample ray = sample_emission(data_.lights[light], u, data_.bounding_sphere());
+        const Interior interior = interior_at(ray.origin(ray.direction));
+        if (common && !(*common == interior)) return {};
+        common = interior;
     }
+    return common;
 }
 
 Crossing Media::crossing(const SurfacePoint& point, const Interior& current) const {

@@ -10,6 +10,7 @@
 #include "world/world_data.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace etendue {
@@ -41,18 +42,23 @@ class Media {
     [[nodiscard]] Interior interior_at(const Vec3f& point) const;
     /// Returns the bodies that the camera is in.
     [[nodiscard]] const Interior& camera_interior() const { return camera_interior_; }
-    /// Returns the bodies that a ray starts in that leaves the middle of the light of this index on its front; there
-    /// have to be bodies.
-    [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
+    /// Returns the bodies in which all rays start that leave the light of this index, or nothing if these differ or
+    /// other surfaces lie in the light's plane; there have to be bodies.
+    [[nodiscard]] const std::optional<Interior>& light_interior(std::uint32_t light) const {
+        return light_interiors_[light];
+    }
 
   private:
+    /// Returns what `light_interior` does, found from rays that leave the light in all its parts.
+    [[nodiscard]] std::optional<Interior> find_light_interior(std::uint32_t light) const;
     /// Returns the medium of a body, null if it has none.
     [[nodiscard]] const HomogeneousMedium* medium_of(std::uint32_t body) const;
 
     const WorldData& data_;
     const SceneGeometry& geometry_;
     Interior camera_interior_;
-    std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
+    /// Has an element for each light; empty without bodies.
+    std::vector<std::optional<Interior>> light_interiors_;
 };
 
 }  // namespace etendue

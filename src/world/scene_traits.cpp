@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <variant>
 
 namespace etendue {
@@ -71,8 +72,10 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.environment_visible_to_camera = data.environment_visible;
     if (traits.has_bodies && traits.has_sampled_lights)
         for (std::uint32_t light = 0; light < data.lights.size(); ++light) {
-            const HomogeneousMedium* around = media.within(media.light_interior(light));
-            if (around != nullptr && around->scatters()) traits.has_lights_in_media = true;
+            const std::optional<Interior>& interior = media.light_interior(light);
+            const HomogeneousMedium* around = interior ? media.within(*interior) : nullptr;
+            if (interior ? around != nullptr && around->scatters() : traits.has_scattering_bodies)
+                traits.has_lights_in_media = true;
         }
     return traits;
 }

@@ -322,6 +322,22 @@ std::vector<AgreementCase> all_cases() {
     // Scattering in media adds no edges: with the fewest of them there is still light from all over the fog.
     cases.push_back({"LampInFogWithoutSurfaces", in_fog, {.max_depth = 1}, all, 16, bdpt});
     cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 32, bdpt});
+    // Light leaves one lamp within a body and in the open. Light tracing does not see what lies behind the body.
+    cases.push_back({"LampAcrossBody",
+                     [](SceneDesc& scene) {
+                         add_ball(scene, gltf_plastic());
+                         add_lamp(scene);
+                         MaterialDesc water;
+                         DielectricDesc desc{.ior = 1.00001f, .roughness = 0.0f};
+                         desc.volume.attenuation_distance = 0.2f;
+                         desc.volume.attenuation_color = {0.3f, 0.5f, 0.8f};
+                         water.override_model = desc;
+                         add_object(scene, sphere({0.5f, 1.2f, -3.0f}, 0.45f, 12), add_material(scene, water));
+                     },
+                     {.max_depth = 3},
+                     {16, 26, 60, 48},
+                     64,
+                     {"path", "light", "bdpt"}});
     // A light path takes one of the surfaces that its ray lights; in fog some of them lie behind where it is scattered.
     cases.push_back({"CulledBacks",
                      [](SceneDesc& scene) {

@@ -31,8 +31,8 @@ class LampsToCamera {
             if (is_black(emitted.radiance)) continue;
             const float share = weigh(emission, view->camera, emitted.cosine);
             if (share == 0.0f) continue;
-            const Interior interior = interior_at_light(world, emission);
-            Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
+            const Interior interior = interior_at_light(world, emission, view->direction);
+            Ray ray = connecting_ray(world.emitters().origin(emission, view->direction), view->camera.lens);
             ray.time = time;
             ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);
             shares_.clear();

@@ -150,7 +150,8 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         states_[kept] = state;
         rays_[kept] = emission.ray;
         rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
-        if (world.traits().has_bodies) interiors_.push_back(world.emitters().interior(emission));
+        if (world.traits().has_bodies)
+            interiors_.push_back(world.emitters().interior(emission, emission.ray.direction));
         ++kept;
     }
     states_.resize(kept);
