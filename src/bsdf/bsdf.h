@@ -3,6 +3,7 @@
 // To add another, see CONTRIBUTING.md (A lobe).
 #pragma once
 
+#include "bsdf/clear_coat.h"
 #include "bsdf/delta_list.h"
 #include "bsdf/dielectric_body.h"
 #include "bsdf/diffuse.h"
@@ -18,8 +19,8 @@
 
 namespace etendue {
 
-using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRoughness, RoughConductor, RoughDielectric,
-                          RoughDiffuse, SmoothConductor, SmoothDielectric>;
+using Bsdf = std::variant<ClearCoat, Diffuse, DielectricBody, LayeredSurface, MetallicRoughness, RoughConductor,
+                          RoughDielectric, RoughDiffuse, SmoothConductor, SmoothDielectric>;
 
 /// f |cos theta_i| and the density of `sample_bsdf`, for local unit directions; zero across the delta parts, and where
 /// a lobe does not scatter.

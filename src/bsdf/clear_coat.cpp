@@ -42,7 +42,7 @@ BsdfValue ClearCoat::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mo
     return {Rgb(f_cos), value.pdf_solid_angle};
 }
 
-Vec3f ClearCoat::sample(const Vec3f& wo, float u_lobe, Vec2f u) const {
+Vec3f ClearCoat::sample_direction(const Vec3f& wo, float u_lobe, Vec2f u) const {
     const Frame frame = Frame::from_normal(normal);
     const Vec3f o = frame.to_local(wo);
     if (o.z <= 0.0f) return -wo;
@@ -53,6 +53,23 @@ Vec3f ClearCoat::sample(const Vec3f& wo, float u_lobe, Vec2f u) const {
 float ClearCoat::smooth_reflectance(const Vec3f& wo) const {
     const float cos_o = dot(wo, normal);
     return cos_o > 0.0f ? strength * fresnel(cos_o) : 0.0f;
+}
+
+BsdfSample ClearCoat::sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const {
+    const Vec3f wi = sample_direction(wo, u_lobe, u);
+    if (!(wi.z > 0.0f)) return {};
+    if (is_smooth()) return {.wi = wi, .weight = Rgb(smooth_reflectance(wo)), .is_delta = true};
+    BsdfSample sample{.wi = wi, .weight = {}};
+    const BsdfValue value = evaluate(wo, sample.wi, mode);
+    if (!(value.pdf_solid_angle > 0.0f)) return {};
+    sample.weight = value.f_cos / value.pdf_solid_angle;
+    sample.pdf_solid_angle = value.pdf_solid_angle;
+    return sample;
+}
+
+void ClearCoat::add_deltas(const Vec3f& wo, DeltaList& deltas) const {
+    if (is_smooth() && wo.z > 0.0f)
+        deltas.add({.wi = mirror_direction(wo), .weight = Rgb(smooth_reflectance(wo)), .is_delta = true});
 }
 
 float ClearCoat::passed(float cos_coat) const {

@@ -1,6 +1,8 @@
 #include "bsdf/layered_surface.h"
 
 #include "bsdf/cosine_average.h"
+#include "core/frame.h"
+#include "core/trigonometry.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
@@ -166,6 +168,43 @@ float base_choice_back(const LayeredSurface& surface, const Layers& layers, cons
     return Layers(surface, sample.wi).p_base();
 }
 
+/// Holds t_avg of the layers for the base's diffuse part and for a plain cosine lobe.
+struct PassedAverages {
+    float diffuse = 1.0f;
+    float plain = 1.0f;
+};
+
+/// Returns the averages of layers that share their normal.
+PassedAverages passed_averages(const MetallicRoughness& base, const Sheen& sheen, const ClearCoat& coat) {
+    // Light that the base's own specular layer lets through to its diffuse part and out again.
+    const auto through_base = [&](float mu) { return base.passed_by_specular(mu); };
+    const auto through_layers = [&](float mu) { return coat.passed(mu) * sheen.passed(mu); };
+    const float through_all = cosine_average([&](float mu) { return through_base(mu) * through_layers(mu); });
+    const float total = cosine_average(through_base);
+    return {total > 0.0f ? through_all / total : 1.0f, cosine_average(through_layers)};
+}
+
+/// Returns the mean share that a coat which leans leaves of a cosine lobe about z, of its directions on the side of
+/// `geometric`: diffuse light goes to no others.
+float passed_by_leaning(const ClearCoat& coat, const Vec3f& geometric) {
+    constexpr int kAzimuths = 8;
+    const Frame frame = Frame::from_normal(coat.normal);
+    // About the coat's normal, on which alone its share depends.
+    const Vec2f sums = unit_average([&](float mu) {
+        const float sine = std::sqrt(1.0f - mu * mu);
+        float lobe = 0.0f;
+        for (int i = 0; i < kAzimuths; ++i) {
+            const SinCos turn = sin_cos_turns((static_cast<float>(i) + 0.5f) / kAzimuths);
+            for (const float side : {mu, -mu}) {
+                const Vec3f w = frame.to_world({sine * turn.cos, sine * turn.sin, side});
+                if (w.z > 0.0f && dot(w, geometric) > 0.0f) lobe += w.z;
+            }
+        }
+        return Vec2f(lobe * coat.passed(mu), lobe);
+    });
+    return sums.y > 0.0f ? sums.x / sums.y : 1.0f;
+}
+
 BsdfSample sample_base(const LayeredSurface& surface, const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) {
     return std::visit([&](const auto& base) { return base.sample(wo, u_lobe, u, mode); }, surface.base);
 }
@@ -173,19 +212,20 @@ BsdfSample sample_base(const LayeredSurface& surface, const Vec3f& wo, float u_l
 }  // namespace
 
 LayeredSurface LayeredSurface::make(const std::variant<MetallicRoughness, DielectricBody>& base, const Sheen& sheen,
-                                    const ClearCoat& coat) {
+                                    const ClearCoat& coat, const Vec3f& geometric) {
     const auto* plain = std::get_if<MetallicRoughness>(&base);
     const MetallicRoughness& opaque = plain != nullptr ? *plain : std::get<DielectricBody>(base).opaque;
-    // Light that the base's own specular layer lets through to its diffuse part and out again.
-    const auto through_base = [&](float mu) { return opaque.passed_by_specular(mu); };
-    const float through_all =
-        cosine_average([&](float mu) { return through_base(mu) * coat.passed(mu) * sheen.passed(mu); });
-    const float total = cosine_average(through_base);
+    const bool leans = plain != nullptr && coat.leans();
+    PassedAverages averages = passed_averages(opaque, sheen, leans ? ClearCoat{} : coat);
+    if (leans) {
+        const float passed = passed_by_leaning(coat, geometric);
+        averages = {averages.diffuse * passed, averages.plain * passed};
+    }
     return {.base = base,
             .sheen = sheen,
             .coat = coat,
-            .passed_average = total > 0.0f ? through_all / total : 1.0f,
-            .passed_average_plain = cosine_average([&](float mu) { return coat.passed(mu) * sheen.passed(mu); }),
+            .passed_average = averages.diffuse,
+            .passed_average_plain = averages.plain,
             .diffuseness = plain != nullptr ? std::min(opaque.alpha_x, opaque.alpha_y) : 0.0f};
 }
 
@@ -212,7 +252,7 @@ BsdfSample LayeredSurface::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
     const float end_layers = end_sheen + inner.choice(wo);  // one of the two is zero
     BsdfSample sample;
     if (u_lobe < layers.p_coat) {
-        sample.wi = coat.sample(wo, u_lobe / layers.p_coat, u);
+        sample.wi = coat.sample_direction(wo, u_lobe / layers.p_coat, u);
         if (coat.is_smooth()) return sample_smooth_coat(*this, layers, wo, sample.wi, mode);
         if (sample.wi.z <= 0.0f) return {};
     } else if (u_lobe < end_sheen) {
@@ -245,7 +285,7 @@ void LayeredSurface::add_deltas(const Vec3f& wo, DeltaList& deltas) const {
     if (wo.z == 0.0f || (wo.z < 0.0f && !is_two_sided())) return;
     const Layers layers(*this, wo);
     if (layers.p_coat > 0.0f && coat.is_smooth()) {
-        const Vec3f wi = coat.sample(wo, 0.0f, {});
+        const Vec3f wi = coat.sample_direction(wo, 0.0f, {});
         if (wi.z > 0.0f) deltas.add({.wi = wi, .weight = Rgb(coat.smooth_reflectance(wo)), .is_delta = true});
     }
     const InnerSide inner(*this);

@@ -36,6 +36,7 @@ Bsdf widened(const Bsdf& bsdf, Vec2f variance) {
                 return widened_dielectric(lobe, {lobe.alpha_x, lobe.alpha_y}, variance);
             },
             // As wide as they can be, or widened where their material is evaluated.
+            [](const ClearCoat& lobe) { return Bsdf(lobe); },
             [](const Diffuse& lobe) { return Bsdf(lobe); },
             [](const RoughDiffuse& lobe) { return Bsdf(lobe); },
             [](const MetallicRoughness& lobe) { return Bsdf(lobe); },

@@ -111,6 +111,13 @@ Sheen evaluate_sheen(const WorldData& data, const GltfLayers& layers, const Surf
             .alpha = squared(unit(scaled(data, layers.sheen_roughness, layers.sheen_roughness_texture, point, alpha)))};
 }
 
+/// Returns a normal of `point` in the frame of its surface. Seen from behind, the frame is turned about its bitangent,
+/// and the normal is the opposite one (LayeredSurface::from_behind).
+Vec3f in_frame(const SurfacePoint& point, const Vec3f& normal, bool from_back) {
+    const Vec3f local = point.shading.to_local(normal);
+    return {local.x, from_back ? -local.y : local.y, local.z};
+}
+
 Bsdf from_body(const DielectricBody& body) {
     if (body.interface_share < 1.0f) return body;
     return std::visit([](const auto& lobe) { return Bsdf(lobe); }, body.interface);
@@ -126,10 +133,7 @@ ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, c
     coat.alpha =
         squared(unit(scaled(data, layers.clearcoat_roughness, layers.clearcoat_roughness_texture, point, green)));
     coat.alpha = widened_alpha(coat.alpha, point.coat_slope_variance);
-    coat.normal = point.shading.to_local(point.coat_normal);
-    // Seen from behind, the frame is turned about its bitangent, and the coat's normal is the opposite one
-    // (LayeredSurface::from_behind).
-    if (from_back) coat.normal.y = -coat.normal.y;
+    coat.normal = in_frame(point, point.coat_normal, from_back);
     return coat;
 }
 
@@ -170,7 +174,9 @@ Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const 
         const Sheen sheen = evaluate_sheen(data, *model.layers, point);
         const ClearCoat coat = evaluate_clear_coat(data, *model.layers, point, from_back && !refracts);
         if (sheen.exists() || coat.exists())
-            return refracts ? LayeredSurface::make(body, sheen, coat) : LayeredSurface::make(lobe, sheen, coat);
+            return refracts
+                       ? LayeredSurface::make(body, sheen, coat)
+                       : LayeredSurface::make(lobe, sheen, coat, in_frame(point, point.geometric_normal, from_back));
     }
     if (refracts) return from_body(body);
     return lobe;

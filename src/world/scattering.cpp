@@ -1,6 +1,7 @@
 #include "world/scattering.h"
 
 #include "sampling/hash.h"
+#include "world/coated_scattering.h"
 #include "world/lane_scattering.h"
 
 #include <algorithm>
@@ -88,12 +89,20 @@ BsdfValue Scattering::evaluate(const Vec3f& wi, TransportMode mode) const {
     const Placed placed_wi = placed(wi);
     // The commonest by far, and many at once elsewhere.
     if (const auto* matte = std::get_if<Diffuse>(bsdf_)) return evaluate_matte(surface_, *matte, placed_wi.w, mode);
-    if (leans_) return evaluate_parts(placed_wi, mode).sum();
+    if (const auto* layered = under_leaning_coat())
+        return CoatedScattering(*layered, surface_).evaluate_parts(wi, mode).sum();
+    if (leans_) return evaluate_placed(placed_wi, mode).sum();
     if (!placed_wo().agrees() || !placed_wi.agrees()) return {};
     return evaluate_bsdf(*bsdf_, surface_.wo_local, placed_wi.w, mode);
 }
 
-BsdfParts Scattering::evaluate_parts(const Placed& wi, TransportMode mode) const {
+BsdfParts Scattering::evaluate_parts(const Vec3f& wi, TransportMode mode) const {
+    if (const auto* layered = under_leaning_coat())
+        return CoatedScattering(*layered, surface_).evaluate_parts(wi, mode);
+    return evaluate_placed(placed(wi), mode);
+}
+
+BsdfParts Scattering::evaluate_placed(const Placed& wi, TransportMode mode) const {
     const Placed wo = placed_wo();
     if (!leans_) return wo.agrees() && wi.agrees() ? evaluate_bsdf_parts(*bsdf_, wo.w, wi.w, mode) : BsdfParts();
     if (mode == TransportMode::Importance) return evaluate_for_light(wo, wi);
@@ -127,7 +136,7 @@ BsdfParts Scattering::evaluate_for_light(const Placed& wo, const Placed& wi) con
 
 Rgb Scattering::diffuse_share(const Vec3f& wi, TransportMode mode) const {
     if (is_diffuse(*bsdf_)) return Rgb(1.0f);
-    const BsdfParts parts = evaluate_parts(placed(wi), mode);
+    const BsdfParts parts = evaluate_parts(wi, mode);
     return {share(parts.diffuse.r, parts.specular.r), share(parts.diffuse.g, parts.specular.g),
             share(parts.diffuse.b, parts.specular.b)};
 }
@@ -161,6 +170,8 @@ float Scattering::reverse_pdf_solid_angle(const Vec3f& wi, TransportMode mode) c
         if (!(from.side > 0.0f)) return 0.0f;
         return is_eye ? matte_pdf_for_light(surface_.leaning, to.w) : matte_pdf_for_eye(surface_.leaning, to.w);
     }
+    if (const auto* layered = under_leaning_coat())
+        return CoatedScattering(*layered, surface_).reverse_pdf_solid_angle(wi, mode);
     if (leans_) return is_eye ? pdf_for_light(from, to) : pdf_for_eye(from, to);
     return to.agrees() && from.agrees() ? etendue::reverse_pdf_solid_angle(*bsdf_, to.w, from.w) : 0.0f;
 }
@@ -178,6 +189,7 @@ BsdfSample Scattering::sample(float u_lobe, Vec2f u, TransportMode mode) const {
 
 BsdfSample Scattering::sample_both_sides(float u_lobe, Vec2f u, TransportMode mode) const {
     if (const auto* matte = std::get_if<Diffuse>(bsdf_)) return sample_matte(surface_, *matte, u, mode);
+    if (const auto* layered = under_leaning_coat()) return CoatedScattering(*layered, surface_).sample(u_lobe, u, mode);
     if (leans_) return mode == TransportMode::Importance ? sample_for_light(u_lobe, u) : sample_for_eye(u_lobe, u);
     if (!placed_wo().agrees()) return {};
     BsdfSample sample = sample_bsdf(*bsdf_, surface_.wo_local, u_lobe, u, mode);
@@ -209,7 +221,7 @@ BsdfSample Scattering::sample_for_eye(float u_lobe, Vec2f u) const {
                                 Viewpoints(leaning, seen_from).chance(placed_wo().side);
         return sample;
     }
-    const BsdfValue value = evaluate_parts({kept, side}, TransportMode::Radiance).sum();
+    const BsdfValue value = evaluate_placed({kept, side}, TransportMode::Radiance).sum();
     if (!(value.pdf_solid_angle > 0.0f)) return {};
     sample.weight = value.f_cos / value.pdf_solid_angle;
     sample.pdf_solid_angle = value.pdf_solid_angle;
@@ -263,6 +275,7 @@ BsdfSample Scattering::sample_for_light(float u_lobe, Vec2f u) const {
 }
 
 DeltaList Scattering::deltas() const {
+    if (const auto* layered = under_leaning_coat()) return CoatedScattering(*layered, surface_).deltas();
     DeltaList placed_deltas;
     const Vec3f seen_from = leans_ ? surface_.seen_from() : surface_.wo_local;
     if (!leans_ && !placed_wo().agrees()) return placed_deltas;

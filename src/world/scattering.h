@@ -34,6 +34,9 @@ class Scattering {
     /// f |cos theta_i| with the density of `sample`.
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wi, TransportMode mode) const;
 
+    /// Evaluates with diffuse and other light apart, to whichever side light goes.
+    [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wi, TransportMode mode) const;
+
     struct TwoWayValue {
         Rgb f_cos;
         float pdf_solid_angle = 0.0f;          ///< of wi, given wo
@@ -96,8 +99,13 @@ class Scattering {
     [[nodiscard]] Placed placed(const Vec3f& world) const {
         return {surface_.frame.to_local(world), dot(world, surface_.geometric_normal)};
     }
+    /// Returns the lobe if its coat leans, null otherwise.
+    [[nodiscard]] const LayeredSurface* under_leaning_coat() const {
+        const auto* layered = std::get_if<LayeredSurface>(bsdf_);
+        return layered != nullptr && layered->has_leaning_coat() ? layered : nullptr;
+    }
     [[nodiscard]] Placed placed_wo() const { return {surface_.wo_local, dot(surface_.wo, surface_.geometric_normal)}; }
-    [[nodiscard]] BsdfParts evaluate_parts(const Placed& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfParts evaluate_placed(const Placed& wi, TransportMode mode) const;
     [[nodiscard]] BsdfParts evaluate_for_light(const Placed& wo, const Placed& wi) const;
     [[nodiscard]] float pdf_for_eye(const Placed& from, const Placed& to) const;
     [[nodiscard]] float pdf_for_light(const Placed& from, const Placed& to) const;

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace etendue::test {
@@ -27,15 +28,25 @@ struct NamedLobe {
     Bsdf bsdf;
 };
 
+constexpr MetallicRoughness kPlastic{.base = {0.5f, 0.6f, 0.7f}, .metallic = 0.0f, .alpha_x = 0.3f, .alpha_y = 0.3f};
+
+/// Returns a coat whose normal leans by `degrees`, against what the tests' surfaces lean by.
+ClearCoat leaning_coat(float alpha, float degrees) {
+    const float angle = degrees * kPi / 180.0f;
+    return {1.0f, alpha, {-std::sin(angle), 0.0f, std::cos(angle)}};
+}
+
 std::vector<NamedLobe> lobes() {
-    return {
-        {"diffuse", Diffuse{Rgb(0.7f)}},
-        {"plastic", MetallicRoughness{.base = {0.5f, 0.6f, 0.7f}, .metallic = 0.0f, .alpha_x = 0.3f, .alpha_y = 0.3f}},
-        {"thin transmission",
-         MetallicRoughness{
-             .base = Rgb(0.9f), .metallic = 0.2f, .alpha_x = 0.4f, .alpha_y = 0.4f, .transmission = 0.8f}},
-        {"rough conductor", RoughConductor{{}, 0.4f}},
-        {"rough dielectric", RoughDielectric::make(1.5f, 0.4f)}};
+    return {{"diffuse", Diffuse{Rgb(0.7f)}},
+            {"plastic", kPlastic},
+            {"coat that leans", LayeredSurface::make(kPlastic, {}, leaning_coat(0.3f, 25.0f))},
+            {"coat that leans over sheen",
+             LayeredSurface::make(kPlastic, Sheen{Rgb(0.5f), 0.4f}, leaning_coat(0.4f, 15.0f))},
+            {"thin transmission",
+             MetallicRoughness{
+                 .base = Rgb(0.9f), .metallic = 0.2f, .alpha_x = 0.4f, .alpha_y = 0.4f, .transmission = 0.8f}},
+            {"rough conductor", RoughConductor{{}, 0.4f}},
+            {"rough dielectric", RoughDielectric::make(1.5f, 0.4f)}};
 }
 
 /// A surface whose shading normal leans away from its geometric one.
@@ -211,6 +222,20 @@ std::vector<NamedLobe> white_lobes() {
         {"rough glass", RoughDielectric::make(1.5f, 0.3f)}};
 }
 
+/// Lobes that lose nothing under coats that lean by `coat` degrees on a surface that leans by `lean`.
+std::vector<NamedLobe> white_lobes_under_coats(float lean, float coat) {
+    const float angle = lean * kPi / 180.0f;
+    const auto coated = [&](float metallic, float base_alpha, float coat_alpha) {
+        return LayeredSurface::make(
+            MetallicRoughness{.base = Rgb(1.0f), .metallic = metallic, .alpha_x = base_alpha, .alpha_y = base_alpha},
+            {}, leaning_coat(coat_alpha, lean - coat), {-std::sin(angle), 0.0f, std::cos(angle)});
+    };
+    return {{"varnish", coated(0.0f, 0.3f, 0.0f)},
+            {"coat", coated(0.0f, 0.3f, 0.2f)},
+            {"varnish over rough plastic", coated(0.0f, 1.0f, 0.0f)},
+            {"varnish over metal", coated(1.0f, 0.4f, 0.0f)}};
+}
+
 /// Mean weight of samples, undone of what refraction does to radiance.
 double albedo_for_eye(const Bsdf& bsdf, const Frame& frame, const Vec3f& wo, std::uint32_t count) {
     const Vec3f geometric_normal(0.0f, 0.0f, 1.0f);
@@ -242,11 +267,64 @@ TEST(Scattering, LeaningNormalsLoseNothing) {
                 }
 }
 
+// Light on white surfaces under coats whose normals are others comes back, but for what metals keep: their mirror image
+// may have to leave where the coat reflects more.
+TEST(Scattering, CoatsThatLeanLoseLittle) {
+    const auto radians = [](float degrees) { return degrees * kPi / 180.0f; };
+    for (const float lean : {0.0f, 30.0f, 60.0f})
+        for (const float coat : {0.0f, 25.0f, -40.0f})
+            for (const NamedLobe& lobe : white_lobes_under_coats(lean, coat))
+                for (const float view : {0.0f, 40.0f, 70.0f})
+                    for (const float azimuth : {0.0f, 90.0f, 180.0f}) {
+                        const Vec3f normal(std::sin(radians(lean)), 0.0f, std::cos(radians(lean)));
+                        const Vec3f wo(std::sin(radians(view)) * std::cos(radians(azimuth)),
+                                       std::sin(radians(view)) * std::sin(radians(azimuth)), std::cos(radians(view)));
+                        const double albedo = albedo_for_eye(lobe.bsdf, Frame::from_normal(normal), wo, 1024);
+                        const std::string which =
+                            fmt::format("{}, lean {}, coat {}, view {}, {}", lobe.name, lean, coat, view, azimuth);
+                        const double least = std::abs(lean - coat) < 90.0f ? 0.98 : 0.94;
+                        EXPECT_GE(albedo, lobe.name.ends_with("metal") ? 0.8 : least) << which;
+                        EXPECT_LE(albedo, 1.01) << which;
+                    }
+}
+
+// A flat varnish reflects as a flat surface does, however steep the relief below it is.
+TEST(Scattering, ReliefBelowAFlatVarnishDoesNotBendItsReflection) {
+    const MetallicRoughness black{.base = Rgb(0.0f), .metallic = 0.0f, .f0 = Rgb(0.0f), .f90 = 0.0f};
+    for (const float lean : {0.0f, 15.0f, 45.0f, 75.0f})
+        for (const float alpha : {0.0f, 0.1f})
+            for (const float side : {1.0f, -1.0f}) {
+                const float angle = lean * kPi / 180.0f;
+                const Frame frame = Frame::from_normal({std::sin(angle), 0.0f, std::cos(angle)});
+                const Bsdf bsdf = LayeredSurface::make(black, {}, {1.0f, alpha, frame.to_local({0.0f, 0.0f, 1.0f})},
+                                                       frame.to_local({0.0f, 0.0f, 1.0f}));
+                const Vec3f wo = normalize(Vec3f(side * 0.9f, 0.1f, 0.3f));
+                const Vec3f wi = mirror_direction(wo);
+                const Vec3f geometric_normal(0.0f, 0.0f, 1.0f);
+                const Scattering scattering(bsdf, frame, geometric_normal, wo);
+                const std::string which = fmt::format("lean {}, alpha {}, side {}", lean, alpha, side);
+                if (alpha == 0.0f) {
+                    const DeltaList deltas = scattering.deltas();
+                    ASSERT_EQ(deltas.end() - deltas.begin(), 1) << which;
+                    EXPECT_LT(length(deltas.begin()->wi - wi), 1e-5f) << which;
+                    EXPECT_NEAR(deltas.begin()->weight.g, 0.04f + 0.96f * std::pow(1.0f - wo.z, 5.0f), 1e-4f) << which;
+                } else {
+                    const Bsdf flat = ClearCoat{1.0f, alpha};
+                    const Scattering expected(flat, Frame::from_normal(geometric_normal), geometric_normal, wo);
+                    for (const TransportMode mode : {TransportMode::Radiance, TransportMode::Importance}) {
+                        const float value = expected.evaluate(wi, mode).f_cos.g;
+                        EXPECT_NEAR(scattering.evaluate(wi, mode).f_cos.g, value, 1e-3f * value) << which;
+                    }
+                }
+            }
+}
+
 // What all pairs of an eye and a light exchange is the same, whichever end walks: samples of either, deltas included,
 // estimate one integral, with a weight for each end that varies over its directions. A false alarm in 100 runs of all.
 TEST(Scattering, WalksFromBothEndsExchangeTheSame) {
     std::vector<NamedLobe> all = white_lobes();
     all.push_back({"coated", LayeredSurface::make(MetallicRoughness{.metallic = 0.0f}, {}, ClearCoat{1.0f, 0.0f})});
+    all.push_back({"under a varnish that leans", LayeredSurface::make(kPlastic, {}, leaning_coat(0.0f, 30.0f))});
     const std::array leans{5.0f, 30.0f, 60.0f};
     const double level = sidak_level(kFamilyLevel, all.size() * leans.size());
     const auto of_eye = [](const Vec3f& w) { return 1.0f + 0.8f * w.x + 0.5f * w.y * w.z; };
