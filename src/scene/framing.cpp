@@ -60,15 +60,21 @@ const T* find(const std::vector<T>& elements, Handle<T> handle) {
     return &elements[static_cast<std::size_t>(handle.index)];
 }
 
-bool has_emissive_instance(const SceneDesc& scene) {
-    const auto primitive_emits = [&](const PrimitiveDesc& p) {
+/// Returns whether an instance has a material for which `holds`.
+template <typename Predicate>
+bool shows_material(const SceneDesc& scene, const Predicate& holds) {
+    const auto primitive_has = [&](const PrimitiveDesc& p) {
         const MaterialDesc* material = find(scene.materials, p.material);
-        return material != nullptr && emits(*material);
+        return material != nullptr && holds(*material);
     };
     return std::ranges::any_of(scene.instances, [&](const InstanceDesc& instance) {
         const MeshDesc* mesh = find(scene.meshes, instance.mesh);
-        return mesh != nullptr && std::ranges::any_of(mesh->primitives, primitive_emits);
+        return mesh != nullptr && std::ranges::any_of(mesh->primitives, primitive_has);
     });
+}
+
+bool has_emissive_instance(const SceneDesc& scene) {
+    return shows_material(scene, emits);
 }
 
 bool has_light(const SceneDesc& scene) {
@@ -117,7 +123,10 @@ void add_missing_camera_and_light(SceneDesc& scene, ProblemList& problems) {
                                   scene.settings.ground ? ", whose ground --no-ground leaves out" : ""));
     if (is_bare_model && !studio && scene.lights.empty() && has_emissive_instance(scene) && !scene.environment.enabled)
         problems.note(where, "only surfaces of the model emit light; --studio adds a studio");
-    if (is_dark && studio && !*studio) problems.note(where, "nothing in the scene emits light: the image is black");
+    if (is_dark && studio && !*studio)
+        problems.note(where, shows_material(scene, [](const MaterialDesc& material) { return material.unlit; })
+                                 ? "nothing in the scene emits light: only unlit surfaces are not black"
+                                 : "nothing in the scene emits light: the image is black");
 }
 
 }  // namespace etendue

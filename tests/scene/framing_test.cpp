@@ -126,6 +126,13 @@ TEST(AddMissing, StudioIfItIsAskedFor) {
     add_missing_camera_and_light(dark, problems);
     EXPECT_FALSE(dark.environment.enabled);
     EXPECT_NE(problems.all().back().message.find("the image is black"), std::string::npos);
+
+    SceneDesc unlit = bare_scene();
+    unlit.settings.studio = false;
+    unlit.materials.emplace_back().unlit = true;
+    unlit.meshes.at(0).primitives.at(0).material.index = static_cast<int>(unlit.materials.size()) - 1;
+    add_missing_camera_and_light(unlit, problems);
+    EXPECT_NE(problems.all().back().message.find("only unlit surfaces"), std::string::npos);
 }
 
 TEST(AddMissing, HintsAtTheStudioWhereOnlyAModelGlows) {
