@@ -8,19 +8,27 @@
 
 namespace etendue {
 
-void PathScattering::evaluate_and_sample_matte() {
+void PathScattering::evaluate_and_sample_by_lanes() {
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
         block_.lanes.u_bsdf.store(l, block_.bsdf_direction.load(l));
     block_.lanes.evaluate_and_sample_matte(block_.count);
+    if (!block_.on_gloss.empty()) {
+        for (std::size_t g = 0; g < block_.on_gloss.size(); ++g)
+            glossy_.set_lobe(g, *block_.paths[block_.on_gloss[g]].glossy);
+        glossy_.take(block_.lanes, block_.count, block_.choices, block_.bsdf_direction);
+        glossy_.evaluate_and_sample(block_.on_gloss.size());
+        glossy_.give_values(block_.lanes, block_.count);
+        glossy_.give_samples(block_.lanes, block_.count);
+    }
+    block_.lanes.set_next_origins(block_.count);
 }
 
-void PathScattering::evaluate_and_sample_glossy() {
+void PathScattering::evaluate_by_lanes() {
+    block_.lanes.evaluate_matte(block_.count);
     if (block_.on_gloss.empty()) return;
-    for (std::size_t g = 0; g < block_.on_gloss.size(); ++g)
-        glossy_.set_lobe(g, *block_.paths[block_.on_gloss[g]].glossy);
-    glossy_.take(block_.lanes, block_.count, block_.choices, block_.bsdf_direction);
-    glossy_.evaluate_and_sample(block_.on_gloss.size());
-    glossy_.give(block_.lanes, block_.count);
+    glossy_.take_lights(block_.lanes, block_.count);
+    glossy_.evaluate(block_.on_gloss.size());
+    glossy_.give_values(block_.lanes, block_.count);
 }
 
 void PathScattering::sample_bsdf(std::size_t k) {

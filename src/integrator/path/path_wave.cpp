@@ -89,12 +89,8 @@ void PathWave::shade(const PathContext& context, const TraceShadowRays& trace_sh
 }
 
 template <typename Stamp>
-void PathWave::sample_direct_light(const PathContext& context, const LaneList& paths, std::uint32_t round,
+void PathWave::queue_light_samples(const PathContext& context, const LaneList& paths, std::uint32_t round,
                                    const Stamp& stamp) {
-    light_.sample(context, paths, round);
-    stamp(Stage::LightSampling);
-    scattering_.evaluate_and_sample_matte();
-    scattering_.evaluate_and_sample_glossy();
     for (const std::size_t k : paths)
         if (!block_.paths[k].is_wide) light_.evaluate(k);
     stamp(Stage::Material);
@@ -103,8 +99,7 @@ void PathWave::sample_direct_light(const PathContext& context, const LaneList& p
 }
 
 template <typename Stamp>
-void PathWave::sample_direct_light_in_rounds(const PathContext& context, const Stamp& stamp) {
-    sample_direct_light(context, block_.sampling, 0, stamp);
+void PathWave::take_more_light_samples(const PathContext& context, const Stamp& stamp) {
     if (context.settings.light_samples <= 1) return;
     LaneList split;
     for (const std::size_t k : block_.sampling) split.add_if(paths_.is(path_history::kOnlyDelta, block_.first + k), k);
@@ -113,7 +108,10 @@ void PathWave::sample_direct_light_in_rounds(const PathContext& context, const S
         block_.draw_light_numbers(context, paths_, round);
         block_.lanes.forget_light();
         stamp(Stage::Numbers);
-        sample_direct_light(context, split, round, stamp);
+        light_.sample(context, split, round);
+        stamp(Stage::LightSampling);
+        scattering_.evaluate_by_lanes();
+        queue_light_samples(context, split, round, stamp);
     }
 }
 
@@ -142,11 +140,13 @@ void PathWave::shade_block(const PathContext& context, std::size_t first, std::s
     places_.look_up_textures(context);
     places_.make_scattering(context);
     stamp(Stage::Textures);
-    sample_direct_light_in_rounds(context, stamp);
-    block_.lanes.set_next_origins(count);
+    light_.sample(context, block_.sampling, 0);
+    stamp(Stage::LightSampling);
+    scattering_.evaluate_and_sample_by_lanes();
     for (const std::size_t k : block_.on_surface)
         if (!block_.paths[k].is_wide) scattering_.sample_bsdf(k);
-    stamp(Stage::Material);
+    queue_light_samples(context, block_.sampling, 0, stamp);
+    take_more_light_samples(context, stamp);
     if (!paths_.passed.empty())
         for (const std::size_t k : block_.on_surface) paths_.passed[block_.first + k] = 0.0f;
     scattering_.scatter_by_lanes(context);
