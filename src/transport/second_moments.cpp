@@ -208,6 +208,7 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
         if (!eye.merges) continue;
         SubpathVertex no_others = unmerged_.eye[i];
         no_others.densities = {};
+        const double expected = all.mis.merging.expected(eye.position);
         light_merged(all, eye, map, [&](const Photon& photon, const StrategyLight& light) {
             work.merges += 1.0;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
@@ -215,7 +216,7 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
                 Photon with = photon;
                 with.a = static_cast<float>(of_photon.a);
                 with.b = static_cast<float>(of_photon.b);
-                return others_of_merge(all.mis, vertex, with, scattered);
+                return others_of_merge(all.mis, vertex, with, scattered, expected);
             };
             sum.add(compared(light, others(no_others, photons.of_path_tracing[photon.first_word]),
                              others(unmerged_.eye[i], photons.unmerged[photon.first_word])));

@@ -116,12 +116,13 @@ void light_merged(const SubpathSample& sample, const SubpathVertex& eye, const P
                   const std::function<void(const Photon&, const StrategyLight&)>& add) {
     const MergeKernel kernel{eye.position, eye.surface.geometric_normal, sample.mis.merging.radius(eye.position),
                              eye.surface.clearance};
+    const double expected = sample.mis.merging.expected_within(kernel.radius);
     photons.for_each_in(kernel, [&](const Photon& photon) {
         if (!wants(sample, eye.next_edges - 1 + photon.edges)) return;
         const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
-        add(photon, {merged_light(sample.mis, eye, eye.throughput, photon, scattered, false) *
+        add(photon, {merged_light(eye, photon, scattered, 1.0, expected) *
                          sample.wavelength_weight(eye.is_dispersed || photon.is_dispersed),
-                     {.fewer_from_light = others_of_merge(sample.mis, eye, photon, scattered)}});
+                     {.fewer_from_light = others_of_merge(sample.mis, eye, photon, scattered, expected)}});
     });
 }
 

@@ -99,11 +99,14 @@ void BdptWave::merge(const BdptJob& job) {
         if (!found.merges || (!job.settings.weighted && !found.is_seen_directly)) continue;
         const PathVertex& eye = eye_.vertices().whole(v);
         const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position), eye.clearance};
+        const double expected = mis.merging.expected_within(kernel.radius);
         photons.map().for_each_in(kernel, [&](const Photon& photon) {
             if (!job.wants(eye.next_edges - 1 + photon.edges)) return;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             if (is_black(scattered.f_cos)) return;
-            const Rgb light = merged_light(mis, eye, eye.throughput, photon, scattered, job.settings.weighted) *
+            const double weight =
+                job.settings.weighted ? 1.0 / (1.0 + others_of_merge(mis, eye, photon, scattered, expected)) : 1.0;
+            const Rgb light = merged_light(eye, photon, scattered, weight, expected) *
                               job.wavelength_weight(eye.slot, eye.is_dispersed || photon.is_dispersed);
             shares_.clear();
             if (eye_.vertices().words().are_followed())
