@@ -13,10 +13,10 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
         sentences.push_back(fmt::format(
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
             settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
-    if (settings_.strategy == kMerges && merging_.at != MergeAt::Everywhere &&
-        (merging_.at == MergeAt::Nothing || !world.traits().has_specular_surfaces))
+    if (settings_.strategy == kMerges && settings_.merging.at != MergeAt::Everywhere &&
+        (settings_.merging.at == MergeAt::Nothing || !world.traits().has_specular_surfaces))
         sentences.emplace_back("the image stays black: no vertices merge; '--merge all' merges everywhere");
-    const bool merges = merging_.at != MergeAt::Nothing && settings_.strategy.value_or(kMerges) == kMerges;
+    const bool merges = settings_.merging.at != MergeAt::Nothing && settings_.strategy.value_or(kMerges) == kMerges;
     if (world.traits().has_delta_lights && world.traits().has_specular_surfaces && !merges)
         sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "
@@ -38,7 +38,7 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
 
 Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
     return make_merging(world, job.full_width, job.full_height, static_cast<double>(photon_paths(job.window)),
-                        job.first_sample, merging_);
+                        job.first_sample, settings_.merging);
 }
 
 std::unique_ptr<const LampImages> BdptIntegrator::lamp_images(const World& world, const TileJob& whole,

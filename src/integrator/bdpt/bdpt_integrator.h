@@ -17,11 +17,9 @@ namespace etendue {
 
 class BdptIntegrator final : public Integrator {
   public:
-    /// `observer` must outlive the integrator; null if nobody sees weights. Subpaths merge as `merging` says, not as
-    /// `settings` do.
-    explicit BdptIntegrator(const IntegratorSettings& settings, WeightObserver* observer = nullptr,
-                            const MergeSettings& merging = {.at = MergeAt::Nothing})
-        : settings_(settings), observer_(observer), merging_(merging) {}
+    /// `observer` must outlive the integrator; null if nobody sees weights.
+    explicit BdptIntegrator(const IntegratorSettings& settings, WeightObserver* observer = nullptr)
+        : settings_(settings), observer_(observer) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -38,7 +36,6 @@ class BdptIntegrator final : public Integrator {
   private:
     IntegratorSettings settings_;
     WeightObserver* observer_;
-    MergeSettings merging_;
 };
 
 }  // namespace etendue
