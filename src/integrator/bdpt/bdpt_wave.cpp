@@ -29,8 +29,11 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
                          settings.cached_connections > 0 ? SampleOrder::SampleBySample : SampleOrder::PixelByPixel);
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
-    const BdptJob bdpt{{world, job, settings.lengths, Raised{settings.heuristic}, samples_, camera_rays_,
-                        settings.aimed_emission, job.merging},
+    const BdptJob bdpt{{.mis = mis_context(world, job, settings),
+                        .job = job,
+                        .lengths = settings.lengths,
+                        .samples = samples_,
+                        .camera_rays = camera_rays_},
                        settings};
     const SparedRays spared = spared_rays(settings.lengths.roulette_depth);
     MetLight met({bdpt, eye_, lamps_, observed_, found_, alpha_, tile, counters});
@@ -40,7 +43,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         if (bdpt.wants(1) && bdpt.wants({.s = 1, .t = 1}))
             lamps_to_camera_.connect(bdpt, light_, camera_connections_,
                                      [&](const Emission& emission, const CameraConnection& camera, float cosine) {
-                                         return bdpt.weight(sums_of_seen_light(bdpt.mis(), emission, camera, cosine));
+                                         return bdpt.weight(sums_of_seen_light(bdpt.mis, emission, camera, cosine));
                                      });
         light_vertices_.collect(bdpt, light_.vertices().connectible());
         stamp(job.profile, Stage::Mis);
@@ -81,8 +84,11 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
     found_.reset(count, job, counters.brightest.threshold());
-    const SubpathJob subpaths{world,    job,          settings.lengths,        Raised{settings.heuristic},
-                              samples_, camera_rays_, settings.aimed_emission, job.merging};
+    const SubpathJob subpaths{.mis = mis_context(world, job, settings),
+                              .job = job,
+                              .lengths = settings.lengths,
+                              .samples = samples_,
+                              .camera_rays = camera_rays_};
     light_.trace(subpaths, spared_rays(settings.lengths.roulette_depth).of_light, nullptr, found_, counters);
     for (const PathVertex& vertex : light_.vertices().all())
         if (vertex.merges)
@@ -92,7 +98,7 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
 
 void BdptWave::merge(const BdptJob& job) {
     const SharedPhotons& photons = *job.job.photons;
-    const MisContext mis = job.mis();
+    const MisContext& mis = job.mis;
     for (std::uint32_t v = 0; v < eye_.vertices().all().size(); ++v) {
         const PathVertex& found = eye_.vertices().all()[v];
         // Without weights a path is to be found once.
@@ -128,11 +134,11 @@ void BdptWave::start(const World& world, const TileJob& job, const IntegratorSet
         [&world, &job, &settings, is_wanted](const CameraSample& sample, const Ray& ray, const SurfacePoint& point) {
             const std::uint32_t light = world.lights().at(point);
             if (!is_wanted || light == kNone) return is_wanted ? 1.0f : 0.0f;
-            const SubpathJob of_sample{world, job, settings.lengths, Raised{settings.heuristic}, {}, {}};
+            const MisContext mis = mis_context(world, job, settings);
             const SubpathDensities arrived =
-                arrive_from_lens(of_sample.mis(), {}, world.camera().connect(point.position, sample.lens, ray.time),
+                arrive_from_lens(mis, {}, world.camera().connect(point.position, sample.lens, ray.time),
                                  static_cast<double>(abs_dot(ray.direction, point.geometric_normal)));
-            return strategy_weight(settings, sums_at_seen_emitter(of_sample.mis(), light, arrived));
+            return strategy_weight(settings, sums_at_seen_emitter(mis, light, arrived));
         });
 }
 

@@ -20,7 +20,7 @@ constexpr std::uint32_t kCacheDimension = 3u << 29;
 }  // namespace
 
 void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last) {
-    const World& world = job.world;
+    const World& world = job.world();
     WaveProfile* const profile = job.job.profile;
     receivers_.clear();
     choosing_.clear();
@@ -89,7 +89,7 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
     const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = job.weight(sums_of_light_sample(job.mis(), vertex, chosen, value));
+    const float share = job.weight(sums_of_light_sample(job.mis, vertex, chosen, value));
     if (share == 0.0f) return;
     const float density = light.is_delta ? chosen.expected_samples : light.pdf_solid_angle;
     queue(job, *connection.vertex,
@@ -106,7 +106,7 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
 }
 
 void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
-    to_light_lanes_.connect(wide_to_lights_.size(), job.rule(), job.world.emitters().aim(job.aims));
+    to_light_lanes_.connect(wide_to_lights_.size(), job.rule(), job.world().emitters().aim(job.mis.aims));
     if (!asks_for_each(job)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
         const auto& [vertex, light, triangle] = wide_to_lights_[lane];
@@ -131,7 +131,7 @@ void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const 
     if (PathWords& words = eye_.vertices().words(); words.are_followed()) {
         const PathVertex& whole = eye_.vertices().whole(vertex);
         words.end_at_light(whole.words, whole.event(-end.direction, TransportMode::Radiance),
-                           words.light_source(job.world, end.light), shares_);
+                           words.light_source(job.world(), end.light), shares_);
     }
     connections.to_sample(ray, vertex.slot, brought.light,
                           vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
@@ -149,7 +149,7 @@ void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::siz
         const MatteEnd& end = light_.vertices().matte_end(vertex);
         if (!end.exists() && light_.vertices().whole(vertex).is_hidden) continue;
         const Vec3f& position = end.exists() ? end.position : light_.vertices().whole(vertex).position;
-        const auto view = view_from_camera(job.world, job.job, position, lens, job.camera_rays[vertex.slot].time);
+        const auto view = view_from_camera(job.world(), job.job, position, lens, job.camera_rays[vertex.slot].time);
         if (!view) continue;
         if (!end.exists()) {
             to_cameras_.push_back({&vertex, *view, {}});
@@ -179,7 +179,7 @@ void BdptWave::weigh(const BdptJob& job, const ToCamera& connection) {
     const PathVertex& vertex = light_.vertices().whole(*connection.vertex);
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = job.weight(sums_at_lens(job.mis(), vertex, view.direction, view.camera, value));
+    const float share = job.weight(sums_at_lens(job.mis, vertex, view.direction, view.camera, value));
     queue(job, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
           {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
                job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
@@ -188,7 +188,7 @@ void BdptWave::weigh(const BdptJob& job, const ToCamera& connection) {
 }
 
 void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
-    to_camera_lanes_.connect(wide_to_cameras_.size(), job.rule(), static_cast<float>(job.samples_per_light_path()));
+    to_camera_lanes_.connect(wide_to_cameras_.size(), job.rule(), static_cast<float>(job.mis.samples_per_light_path));
     if (!asks_for_each(job))
         return to_camera_lanes_.for_each_wide(
             wide_to_cameras_.size(), [&](const WideConnections& connections, WideMask which, std::size_t first) {
@@ -290,7 +290,7 @@ void BdptWave::weigh(const BdptJob& job, const Between& connection) {
     const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
     const PathVertex& eye = eye_.vertices().whole(*eye_vertex);
     const PathVertex& light = light_.vertices().whole(*light_vertex);
-    const float share = job.weight(sums_between(job.raised, eye, light, w, squared, at_eye, at_light));
+    const float share = job.weight(sums_between(job.mis.raised, eye, light, w, squared, at_eye, at_light));
     queue(
         job, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
         {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
@@ -317,8 +317,8 @@ void BdptWave::weigh_wide_between(const BdptJob& job) {
 }
 
 bool BdptWave::asks_for_each(const BdptJob& job) {
-    return eye_.vertices().words().are_followed() || job.world.traits().has_motion ||
-           job.world.traits().has_transparency || observed_.are_seen();
+    return eye_.vertices().words().are_followed() || job.world().traits().has_motion ||
+           job.world().traits().has_transparency || observed_.are_seen();
 }
 
 void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {

@@ -56,7 +56,7 @@ PathLightEnd ObservedPaths::light_end(std::uint32_t slot) const {
 CameraConnection ObservedPaths::camera_of(const SubpathJob& job, const PathVertex& eye) const {
     const PathVertex* first = &eye;
     while (first->previous != PathVertex::kNoVertex) first = &eye_.vertices().all()[first->previous];
-    return job.world.camera().connect(first->position, job.samples[eye.slot].lens, job.camera_rays[eye.slot].time);
+    return job.world().camera().connect(first->position, job.samples[eye.slot].lens, job.camera_rays[eye.slot].time);
 }
 
 }  // namespace etendue

@@ -20,7 +20,7 @@ class LampsToCamera {
     /// `connections` what arrives, times `weigh(emission, camera, cosine)` with the cosine at the lamp.
     template <typename Weigh>
     void connect(const SubpathJob& job, SubpathWave& subpaths, Connections& connections, const Weigh& weigh) {
-        const World& world = job.world;
+        const World& world = job.world();
         draw_lens(job);
         for (std::uint32_t slot = 0; slot < job.samples.size(); ++slot) {
             const Emission& emission = subpaths.emissions()[slot];

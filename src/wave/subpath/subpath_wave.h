@@ -23,25 +23,26 @@
 
 namespace etendue {
 
+/// Returns what the weights of the paths of a job depend on.
+[[nodiscard]] inline MisContext mis_context(const World& world, const TileJob& job,
+                                            const IntegratorSettings& settings) {
+    return {.world = world,
+            .raised = Raised{settings.heuristic},
+            .samples_per_light_path = static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
+                                      static_cast<double>(job.window.area()),
+            .merging = job.merging,
+            .aims = settings.aimed_emission};
+}
+
 /// Says which samples one wave of subpaths is traced for, how long paths may be and how strategies are weighed.
 struct SubpathJob {
-    const World& world;
+    MisContext mis;
     const TileJob& job;
     const PathLengths& lengths;
-    Raised raised;
-    std::span<const CameraSample> samples;
-    std::span<const Ray> camera_rays;  ///< rays of the samples, in their order
-    bool aims = false;                 ///< light subpaths are aimed, see LightEmitter::sample
-    Merging merging{};                 ///< where subpaths merge
+    std::span<const CameraSample> samples{};
+    std::span<const Ray> camera_rays{};  ///< rays of the samples, in their order
 
-    /// Returns camera samples per area of the film over light paths, by which the density of the eye's first vertex is
-    /// multiplied.
-    [[nodiscard]] double samples_per_light_path() const {
-        return static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
-               static_cast<double>(job.window.area());
-    }
-    /// Returns what weights depend on.
-    [[nodiscard]] MisContext mis() const { return {world, raised, samples_per_light_path(), merging, aims}; }
+    [[nodiscard]] const World& world() const { return mis.world; }
     /// Returns the wavelength of the path of the sample in `slot`, if it needs one; both subpaths have the same.
     [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {

@@ -27,7 +27,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         end_path(job, i, PathEnding::TooLong);
         return false;
     }
-    const World& world = job.world;
+    const World& world = job.world();
     const std::optional<Crossing>& crossing = path.crossing;
     float relative_ior = 0.0f;
     if (crossing) {
@@ -48,7 +48,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.clearance = lanes_.clearance[path.lane];
     }
     if (vertex.is_connectible && !path.ends_here) {
-        vertex.merges = merge_at(job.mis(), state.departing, vertex.position, path.arrived);
+        vertex.merges = merge_at(job.mis, state.departing, vertex.position, path.arrived);
         vertex.densities = path.arrived;
     }
     if (world.traits().has_bodies) {
@@ -73,7 +73,7 @@ bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
     if (!makes_matte_ends_ || vertex.outside != nullptr || vertex.is_dispersed) return false;
     // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
-    const double fewer = path.arrived.fewer(job.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
+    const double fewer = path.arrived.fewer(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
     if (!((fewer > kSmallest && fewer < kLargest) || fewer == 0.0)) return false;
     ends_[path.lane] = path.vertex;
     lanes_.end_fewer.set(path.lane, static_cast<float>(fewer));

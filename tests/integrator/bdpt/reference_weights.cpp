@@ -31,15 +31,15 @@ class Path {
           is_connected_(path.s > 0),
           from_light_(path.s > 0 ? path.s - 1 : 0),
           camera_(path.camera),
-          at_infinity_(end_.light != kNone && job.world.lights().is_at_infinity(end_.light)),
-          emitted_(emitted_ray(job.world, path)) {}
+          at_infinity_(end_.light != kNone && job.world().lights().is_at_infinity(end_.light)),
+          emitted_(emitted_ray(job.world(), path)) {}
 
     [[nodiscard]] std::size_t inner_count() const { return inner_.size(); }
 
     /// Per area, the vertex on the light, as the strategy with `s` > 0 vertices from the light makes it: if it is the
     /// only one it was sampled for the next, else for where its ray goes.
     [[nodiscard]] double on_light(std::size_t s) const {
-        const World& world = job_.world;
+        const World& world = job_.world();
         if (end_.light == kNone) return 0.0;
         const auto chosen =
             static_cast<double>(s == 1 ? world.lights().probability(inner_.front()->position, end_.light)
@@ -58,11 +58,11 @@ class Path {
 
     /// Per area, vertex `i` > 0 from the light's side. Deltas have their share of `delta` instead of a density.
     [[nodiscard]] double from_light(std::size_t i) const {
-        const World& world = job_.world;
+        const World& world = job_.world();
         if (end_.light == kNone) return 0.0;
         const PathVertex& vertex = *inner_[i - 1];
         if (i == 1) {
-            const auto pdf = static_cast<double>(world.emitters().pdf(emitted_, job_.aims));
+            const auto pdf = static_cast<double>(world.emitters().pdf(emitted_, job_.mis.aims));
             return pdf * cosine(vertex, end_.direction) / (at_infinity_ ? 1.0 : squared_distance(0));
         }
         const PathVertex& before = *inner_[i - 2];
@@ -75,10 +75,10 @@ class Path {
     /// Per area, vertex `i` from the eye's side.
     [[nodiscard]] double from_eye(std::size_t i) const {
         if (i == inner_.size()) {
-            return job_.samples_per_light_path() * static_cast<double>(camera_.importance_area) *
+            return job_.mis.samples_per_light_path * static_cast<double>(camera_.importance_area) *
                    cosine(*inner_.back(), direction(inner_.size()));
         }
-        if (i == 0 && (end_.light == kNone ? false : !job_.world.lights().can_be_hit(end_.light))) return 0.0;
+        if (i == 0 && (end_.light == kNone ? false : !job_.world().lights().can_be_hit(end_.light))) return 0.0;
         const PathVertex& before = *inner_[i];
         const double pdf = is_delta(i + 1)
                                ? delta_from_eye(i + 1)
@@ -95,7 +95,7 @@ class Path {
     /// True if subpaths merge at vertex i.
     [[nodiscard]] bool merges(std::size_t i) const {
         if (i == 0 || i > inner_.size() || !scatters_freely(i) || !inner_[i - 1]->is_on_surface()) return false;
-        switch (job_.merging.at) {
+        switch (job_.mis.merging.at) {
             case MergeAt::Nothing:
                 return false;
             case MergeAt::BetweenDeltas:
@@ -107,7 +107,7 @@ class Path {
     }
     /// How many light subpaths are expected within the radius around vertex i, per density.
     [[nodiscard]] double expected_photons(std::size_t i) const {
-        return job_.merging.expected(inner_[i - 1]->position);
+        return job_.mis.merging.expected(inner_[i - 1]->position);
     }
 
   private:
@@ -185,7 +185,7 @@ std::vector<double> reference_weights(const SubpathJob& job, const CompletePath&
     const double largest = std::ranges::max(densities);
     double sum = 0.0;
     for (double& density : densities) {
-        density = density == kNever ? 0.0 : job.raised(std::exp(density - largest));
+        density = density == kNever ? 0.0 : job.mis.raised(std::exp(density - largest));
         sum += density;
     }
     for (double& density : densities) density /= sum;
