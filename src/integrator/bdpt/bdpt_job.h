@@ -22,7 +22,6 @@ struct BdptJob : SubpathJob {
     [[nodiscard]] bool is_shared(const ConnectibleVertex& vertex) const {
         return settings.cached_connections > 0 && !world().traits().has_motion && !vertex.is_dispersed;
     }
-    [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
     [[nodiscard]] bool wants(const Strategy& strategy) const {
         return !settings.strategy || *settings.strategy == strategy;
     }

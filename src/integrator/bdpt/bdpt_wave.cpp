@@ -40,7 +40,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
     eye_.trace(bdpt, spared.of_eye, &met, found_, counters);
     if (world.traits().has_lights) {
         light_.trace(bdpt, spared.of_light, nullptr, found_, counters);
-        if (bdpt.wants(1) && bdpt.wants({.s = 1, .t = 1}))
+        if (bdpt.lengths.keeps(1) && bdpt.wants({.s = 1, .t = 1}))
             lamps_to_camera_.connect(bdpt, light_, camera_connections_,
                                      [&](const Emission& emission, const CameraConnection& camera, float cosine) {
                                          return bdpt.weight(sums_of_seen_light(bdpt.mis, emission, camera, cosine));
@@ -107,7 +107,7 @@ void BdptWave::merge(const BdptJob& job) {
         const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position), eye.clearance};
         const double expected = mis.merging.expected_within(kernel.radius);
         photons.map().for_each_in(kernel, [&](const Photon& photon) {
-            if (!job.wants(eye.next_edges - 1 + photon.edges)) return;
+            if (!job.lengths.keeps(eye.next_edges - 1 + photon.edges)) return;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             if (is_black(scattered.f_cos)) return;
             const double weight =

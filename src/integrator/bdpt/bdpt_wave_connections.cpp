@@ -27,7 +27,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
     lit_.clear();
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& vertex = to_light_[v];
-        if (!job.wants(vertex.next_edges) || !job.wants({.s = 1, .t = vertex.index + 1})) continue;
+        if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = 1, .t = vertex.index + 1})) continue;
         const MatteEnd& end = eye_.vertices().matte_end(vertex);
         receivers_.push_back(end.exists() ? end.position : eye_.vertices().whole(vertex).position);
         choosing_.push_back(to_light_.numbers(v)[0]);
@@ -91,7 +91,6 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share = job.weight(sums_of_light_sample(job.mis, vertex, chosen, value));
     if (share == 0.0f) return;
-    const float density = light.is_delta ? chosen.expected_samples : light.pdf_solid_angle;
     queue(job, *connection.vertex,
           {.light = chosen.light,
            .triangle = light.triangle,
@@ -100,7 +99,7 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
            .cos_light = light.cos_light},
           shadow_ray(vertex.origin(light.wi), light),
           {vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
-               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
+               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / chosen.density()),
            share},
           light_connections_);
 }
@@ -144,7 +143,7 @@ void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::siz
     wide_to_cameras_.clear();
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& vertex = to_camera_[v];
-        if (!job.wants(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
+        if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
         const MatteEnd& end = light_.vertices().matte_end(vertex);
         if (!end.exists() && light_.vertices().whole(vertex).is_hidden) continue;
@@ -261,7 +260,7 @@ void BdptWave::find_cached(const BdptJob& job, const ConnectibleVertex& eye, int
 
 void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end,
                     const ConnectibleVertex& light, float scale) {
-    if (!job.wants(eye.next_edges + light.next_edges - 1) || !job.wants({.s = light.index + 1, .t = eye.index + 1}))
+    if (!job.lengths.keeps(eye.next_edges + light.next_edges - 1) || !job.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
     const MatteEnd& light_end = light_.vertices().matte_end(light);
     if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, light, scale);

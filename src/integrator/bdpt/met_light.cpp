@@ -38,7 +38,7 @@ void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySu
 
 void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                           const SubpathDensities& arrived) {
-    if (state.edges < parts_.job.lengths.min_depth) return;
+    if (!parts_.job.lengths.is_long_enough(state.edges)) return;
     if (state.only_delta && state.edges > 1 && parts_.lamps.finds_image(parts_.job.samples[state.slot])) return;
     const World& world = parts_.job.world();
     const Rgb emitted = world.materials().emission(point, -direction);
@@ -68,7 +68,7 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
 
 void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-    if (state.only_delta && state.edges >= parts_.job.lengths.min_depth)
+    if (state.only_delta && parts_.job.lengths.is_long_enough(state.edges))
         add(state, parts_.job.world().materials().unlit_color(point), {},
             {.position = point.position, .direction = -direction}, parts_.eye.vertices().words().surface_source(point));
 }
@@ -78,7 +78,7 @@ void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
     const bool is_direct = state.index == kDirectlySeen;
     const std::span<const std::uint32_t> met = world.environment().met(is_direct);
     if (is_direct && met.empty()) parts_.alpha[state.slot] = 0.0f;
-    if (state.edges < parts_.job.lengths.min_depth) return;
+    if (!parts_.job.lengths.is_long_enough(state.edges)) return;
     for (const std::uint32_t light : met) {
         const Rgb radiance = world.environment().radiance(light, direction);
         // What is black of an environment is met, too, and weighed.

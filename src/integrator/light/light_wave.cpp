@@ -44,7 +44,7 @@ void LightWave::trace_subpaths(const World& world, const TileJob& job, const Int
                                  .samples = samples_,
                                  .camera_rays = camera_rays_};
     subpaths_.trace(subpath_job, lengths.roulette_depth, nullptr, found_, counters);
-    if (lengths.min_depth <= 1)
+    if (lengths.is_long_enough(1))
         lamps_.connect(subpath_job, subpaths_, connections_,
                        [](const Emission&, const CameraConnection&, float) { return 1.0f; });
     connect_vertices(subpath_job, tile, counters);
@@ -56,7 +56,7 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
     to_camera_.collect(job, SubpathEnd::AtLight, subpaths_);
     for (std::size_t i = 0; i < to_camera_.size(); ++i) {
         const PathVertex& vertex = subpaths_.vertices().whole(to_camera_[i]);
-        if (vertex.is_hidden || vertex.next_edges < job.lengths.min_depth) continue;
+        if (vertex.is_hidden || !job.lengths.is_long_enough(vertex.next_edges)) continue;
         const float time = camera_rays_[vertex.slot].time;
         const auto [lens] = to_camera_.numbers(i);
         const auto view = view_from_camera(job.world(), job.job, vertex.position, lens, time);

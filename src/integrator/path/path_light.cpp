@@ -148,7 +148,7 @@ void PathLight::put_into_lanes(std::size_t k) {
     block_.lanes.light_wi.set(k, light.wi);
     block_.lanes.light_distance.set(k, light.distance);
     block_.lanes.light_end.set(k, light.end);
-    block_.lanes.light_pdf.set(k, light.is_delta ? block_.lights[k].expected_samples : light.pdf_solid_angle);
+    block_.lanes.light_pdf.set(k, block_.lights[k].density());
     block_.lanes.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
     block_.lanes.light_radiance.set(k, light.radiance);
 }
@@ -170,7 +170,7 @@ void PathLight::add_environment(const PathContext& context) {
             if (!is_black(paths_.throughput[block_.first + k])) alpha_[paths_.slot[block_.first + k]] = 0.0f;
             continue;
         }
-        if (!world.traits().has_environment || paths_.edges(block_.first + k) < context.settings.lengths.min_depth)
+        if (!world.traits().has_environment || !context.settings.lengths.is_long_enough(paths_.edges(block_.first + k)))
             continue;
         directions[meeting.size()] = paths_.direction[block_.first + k];
         meeting.add(k);
@@ -195,7 +195,7 @@ void PathLight::add_suns(const PathContext& context) {
             const std::size_t i = block_.first + k;
             const float pdf = world.environment().pdf_solid_angle(light, paths_.direction[i]);
             if (!(pdf > 0.0f) || path_history::is_seen(paths_.history[i]) ||
-                paths_.edges(i) < context.settings.lengths.min_depth)
+                !context.settings.lengths.is_long_enough(paths_.edges(i)))
                 continue;
             if (context.job.profile != nullptr) ++context.job.profile->use().bsdf_met_light;
             add(i, world.environment().radiance(light, paths_.direction[i]) * weight_from_afar(context, i, light, pdf),
@@ -215,7 +215,7 @@ float PathLight::weight_from_afar(const PathContext& context, std::size_t i, std
 void PathLight::add_emission(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     const SurfacePoint& point = block_.singles[k].point;
-    if (paths_.edges(i) < context.settings.lengths.min_depth) return;
+    if (!context.settings.lengths.is_long_enough(paths_.edges(i))) return;
     if (context.depth == 1 && lamps_.finds(paths_.hits[i])) return;
     if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) > 1 &&
         lamps_.finds_image(paths_.samples[paths_.slot[i]]))

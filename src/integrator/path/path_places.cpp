@@ -53,7 +53,7 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
     }
     if (!point.material->unlit) return true;
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.settings.lengths.min_depth)
+    if (paths_.is(path_history::kOnlyDelta, i) && context.settings.lengths.is_long_enough(paths_.edges(i)))
         light_.add(i, world.materials().unlit_color(point), paths_.words.surface_source(point));
     paths_.end_path(context, block_.first + k, PathEnding::Unlit);
     return false;
@@ -125,9 +125,8 @@ void PathPlaces::make_scattering(const PathContext& context) {
         }
         block_.lanes.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
         block_.on_gloss.add_if(path.glossy != nullptr, k);
-        const int edges = paths_.edges(block_.first + k) + 1;
-        block_.sampling.add_if(samples_lights && edges >= context.settings.lengths.min_depth &&
-                                   edges <= context.settings.lengths.max_depth &&
+        block_.sampling.add_if(samples_lights &&
+                                   context.settings.lengths.keeps(paths_.edges(block_.first + k) + 1) &&
                                    (path.is_wide || block_.singles[k].scattering->has_non_delta()),
                                k);
     }
