@@ -52,8 +52,8 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         const auto resolve_if_full = [&](Connections& connections) {
             if (connections.is_full()) connections.resolve(world, job, samples_, found_, tile, counters);
         };
-        for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlock) {
-            const std::size_t end = std::min(begin + kBlock, to_light_.size());
+        for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlockLanes) {
+            const std::size_t end = std::min(begin + kBlockLanes, to_light_.size());
             if (world.traits().has_sampled_lights) connect_to_lights(bdpt, begin, end);
             resolve_if_full(light_connections_);
             resolve_if_full(wide_light_connections_);
@@ -63,8 +63,8 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         }
         to_camera_.collect(bdpt, SubpathEnd::AtLight, light_);
         stamp(job.profile, Stage::Numbers);
-        for (std::size_t begin = 0; begin < to_camera_.size(); begin += kBlock) {
-            connect_to_camera(bdpt, begin, std::min(begin + kBlock, to_camera_.size()));
+        for (std::size_t begin = 0; begin < to_camera_.size(); begin += kBlockLanes) {
+            connect_to_camera(bdpt, begin, std::min(begin + kBlockLanes, to_camera_.size()));
             resolve_if_full(camera_connections_);
             resolve_if_full(wide_camera_connections_);
         }

@@ -29,8 +29,6 @@ class BdptWave final : public IntegratorScratch {
     /// Samples in a wave. A vertex takes 316 bytes, its MatteEnd included, and 248 more for a lobe that was evaluated
     /// there: the ten or so of a sample stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
-    /// Vertices whose connections go from one stage to the next together.
-    static constexpr std::size_t kBlock = kBlockLanes;
 
     [[nodiscard]] std::size_t bytes() const override;
 

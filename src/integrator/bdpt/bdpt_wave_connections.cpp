@@ -35,9 +35,9 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
     }
     choices_.resize(lit_.size());
     world.lights().choose(receivers_, choosing_, choices_);
-    std::array<const MeshLight*, kBlock> meshes;
-    std::array<Vec3f, kBlock> points;
-    std::array<Vec2f, kBlock> u_triangle;
+    std::array<const MeshLight*, kBlockLanes> meshes;
+    std::array<Vec3f, kBlockLanes> points;
+    std::array<Vec2f, kBlockLanes> u_triangle;
     for (std::size_t i = 0; i < lit_.size(); ++i) {
         const bool is_wide = eye_.vertices().matte_end(to_light_[lit_[i]]).exists();
         meshes[i] = is_wide ? world.lights().even_mesh(choices_[i].light) : nullptr;
@@ -45,7 +45,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
         u_triangle[i] = triangle;
     }
-    std::array<MeshLight::TriangleChoice, kBlock> triangles;
+    std::array<MeshLight::TriangleChoice, kBlockLanes> triangles;
     MeshLight::choose_triangles(std::span(meshes).first(lit_.size()), points, u_triangle, triangles);
     to_lights_.clear();
     wide_to_lights_.clear();

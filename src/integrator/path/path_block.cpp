@@ -28,8 +28,8 @@ void PathBlock::draw_numbers(const PathContext& context, const WavePaths& wave) 
 void PathBlock::draw_light_numbers(const PathContext& context, const WavePaths& wave, std::uint32_t round) {
     std::span pixel_seeds(wave.pixel_seed.data() + first, count);
     std::span indices(wave.index.data() + first, count);
-    std::array<std::uint32_t, kSize> split_seeds;
-    std::array<std::uint32_t, kSize> split_indices;
+    std::array<std::uint32_t, kBlockLanes> split_seeds;
+    std::array<std::uint32_t, kBlockLanes> split_indices;
     if (context.settings.light_samples > 1) {
         for (std::size_t k = 0; k < count; ++k) {
             const SampleKey key = wave.light_sample_key(context, first + k, round);

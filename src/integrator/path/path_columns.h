@@ -143,7 +143,6 @@ struct PathColumns {
         cone_width.set(i, cone.width);
         cone_spread.set(i, cone.spread);
     }
-    void multiply_throughput(std::size_t i, const Rgb& by) { throughput.set(i, throughput[i] * by); }
     [[nodiscard]] bool is(std::uint32_t flag, std::size_t i) const { return (history[i] & flag) != 0; }
     /// Returns the lanes that have `flag` among the `Wide` of paths from `first` on.
     [[nodiscard]] WideMask are(std::uint32_t flag, std::size_t first) const {

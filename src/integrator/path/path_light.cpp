@@ -61,7 +61,7 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
     if (paths.empty()) return;
     const World& world = context.world;
     const std::size_t count = paths.size();
-    std::array<Vec2f, PathBlock::kSize> u;
+    std::array<Vec2f, kBlockLanes> u;
     for (std::size_t place = 0; place < count; ++place) {
         const std::size_t k = paths[place];
         if (!paths_.receivers.empty()) {
@@ -70,7 +70,7 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
         }
         u[place] = block_.light_choice[k];
     }
-    std::array<LightTree::Choice, PathBlock::kSize> choices;
+    std::array<LightTree::Choice, kBlockLanes> choices;
     world.lights().choose(std::span(receivers_).first(count), std::span(u).first(count),
                           std::span(choices).first(count));
     if (context.settings.light_samples > 1)
@@ -81,8 +81,8 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
     LaneList by_mesh;
     LaneList by_environment;
     LaneList singly;
-    std::array<const MeshLight*, PathBlock::kSize> meshes;
-    std::array<Vec3f, PathBlock::kSize> points;
+    std::array<const MeshLight*, kBlockLanes> meshes;
+    std::array<Vec3f, kBlockLanes> points;
     for (std::size_t place = 0; place < count; ++place) {
         const std::size_t k = paths[place];
         const std::uint32_t light = block_.paths[k].light = choices[place].light;
@@ -95,7 +95,7 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
         by_environment.add_if(is_environment, place);
         singly.add_if(!is_mesh && !is_environment, place);
     }
-    std::array<MeshLight::TriangleChoice, PathBlock::kSize> triangles;
+    std::array<MeshLight::TriangleChoice, kBlockLanes> triangles;
     MeshLight::choose_triangles(std::span(meshes).first(count), points, u, triangles);
     for (const std::size_t place : by_mesh) {
         const std::size_t k = paths[place];
@@ -163,7 +163,7 @@ void PathLight::add_environment(const PathContext& context) {
     const World& world = context.world;
     const bool is_shown = !world.environment().met(true).empty();
     LaneList meeting;
-    std::array<Vec3f, PathBlock::kSize> directions;
+    std::array<Vec3f, kBlockLanes> directions;
     for (const std::size_t k : block_.escaped) {
         if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
             // A path without light has met a shadow catcher, which has given it its alpha.
@@ -178,7 +178,7 @@ void PathLight::add_environment(const PathContext& context) {
     if (meeting.empty()) return;
     if (context.job.profile != nullptr && context.depth > 1)
         context.job.profile->use().bsdf_met_light += meeting.size();
-    std::array<EnvironmentRadiance, PathBlock::kSize> met;
+    std::array<EnvironmentRadiance, kBlockLanes> met;
     world.environment().look(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
     for (std::size_t m = 0; m < meeting.size(); ++m) {
         const std::size_t i = block_.first + meeting[m];

@@ -85,8 +85,8 @@ class PathLight {
 
     WavePaths& paths_;
     PathBlock& block_;
-    std::array<LightSample, PathBlock::kSize> environment_samples_{};  ///< light samples of the environment
-    std::array<LightReceiver, PathBlock::kSize> receivers_;            ///< what lights are chosen for, side by side
+    std::array<LightSample, kBlockLanes> environment_samples_{};  ///< light samples of the environment
+    std::array<LightReceiver, kBlockLanes> receivers_;            ///< what lights are chosen for, side by side
     std::vector<ExpressionShare> shares_;  ///< shares of expressions in the contribution at hand
     Connections shadow_rays_{RayKind::Shadow};
     LampsInView lamps_;

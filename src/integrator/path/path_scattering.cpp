@@ -78,7 +78,7 @@ void PathScattering::bend_cone(const World& world, std::size_t k, const RayCone&
 void PathScattering::bend_cones(const World& world) {
     // All as if their lobes were wide; then once more those whose are not.
     LaneList narrow;
-    std::array<RayCone, PathBlock::kSize> arriving;
+    std::array<RayCone, kBlockLanes> arriving;
     for (const std::size_t k : block_.on_surface) {
         if (!block_.paths[k].is_wide) continue;
         arriving[k] = paths_.arriving_cone(block_.first + k);

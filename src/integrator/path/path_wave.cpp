@@ -23,7 +23,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     const std::span<Ray> camera_rays = std::span(camera_rays_).first(count);
     const std::span<CameraSample> samples = std::span(paths_.samples).first(count);
     generate_camera_rays(world, job, first, samples, camera_rays);
-    if (world.traits().has_panes) block_.panes.resize(PathBlock::kSize);
+    if (world.traits().has_panes) block_.panes.resize(kBlockLanes);
     light_.begin(job, count, counters);
     paths_.begin(world, job, camera_rays);
     active_ = count;
@@ -81,8 +81,8 @@ void PathWave::catch_shadows(const World& world, const TileJob& job, std::size_t
 template <typename TraceShadowRays>
 void PathWave::shade(const PathContext& context, const TraceShadowRays& trace_shadow_rays) {
     std::size_t kept = 0;
-    for (std::size_t first = 0; first < active_; first += PathBlock::kSize) {
-        shade_block(context, first, std::min(PathBlock::kSize, active_ - first), kept);
+    for (std::size_t first = 0; first < active_; first += kBlockLanes) {
+        shade_block(context, first, std::min(kBlockLanes, active_ - first), kept);
         if (light_.has_full_batch()) trace_shadow_rays();
     }
     active_ = kept;

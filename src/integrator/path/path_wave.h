@@ -39,7 +39,7 @@ class PathWave final : public IntegratorScratch {
     /// batch.
     template <typename TraceShadowRays>
     void shade(const PathContext& context, const TraceShadowRays& trace_shadow_rays);
-    /// Advances paths [first, first + count), count <= PathBlock::kSize, stage by stage, and moves those that go on to
+    /// Advances paths [first, first + count), count <= kBlockLanes, stage by stage, and moves those that go on to
     /// where `kept` says.
     void shade_block(const PathContext& context, std::size_t first, std::size_t count, std::size_t& kept);
     /// Queues the shadow rays of the `round`-th light samples of `paths`, whose BSDFs lanes have evaluated.

@@ -89,8 +89,8 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         draw_numbers(job);
         stamp(job.job.profile, Stage::Numbers);
         std::size_t kept = 0;
-        for (std::size_t first = 0; first < states_.size(); first += kBlock)
-            advance_block(job, finder, first, std::min(kBlock, states_.size() - first), kept);
+        for (std::size_t first = 0; first < states_.size(); first += kBlockLanes)
+            advance_block(job, finder, first, std::min(kBlockLanes, states_.size() - first), kept);
         states_.resize(kept);
         rays_.resize(kept);
     }

@@ -108,9 +108,7 @@ class SubpathWave {
         return end_ == SubpathEnd::AtLight && world.traits().culls_backs;
     }
     void draw_numbers(const SubpathJob& job);
-    /// Subpaths that go from one stage of shading to the next together, as in PathWave.
-    static constexpr std::size_t kBlock = kBlockLanes;
-    /// Advances subpaths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
+    /// Advances subpaths [first, first + count), count <= kBlockLanes, stage by stage, and moves those that go on to where
     /// `kept` says.
     void advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
                        std::size_t& kept);
@@ -158,13 +156,13 @@ class SubpathWave {
     SampleKeys keys_;
     NumberPairs scattering_, choices_, medium_;
     // Of the block that advances.
-    std::array<ShadedSubpath, kBlock> block_;
-    std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of those on surfaces, then with vertices
+    std::array<ShadedSubpath, kBlockLanes> block_;
+    std::array<std::uint8_t, kBlockLanes> on_surface_{};  ///< places in the block of those on surfaces, then with vertices
     std::size_t surfaces_ = 0;
     MatteLanes lanes_;
-    std::array<std::uint32_t, kBlock> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
+    std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
     ArrivalColumns arrivals_;
-    std::array<bool, kBlock> goes_on_{};
+    std::array<bool, kBlockLanes> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
     std::vector<Emission> emissions_;

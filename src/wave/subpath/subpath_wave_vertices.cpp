@@ -81,7 +81,7 @@ bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
 }
 
 void SubpathWave::store_matte_ends() {
-    std::array<MatteEnd*, kBlock> ends;
+    std::array<MatteEnd*, kBlockLanes> ends;
     for (std::size_t lane = 0; lane < surfaces_; ++lane)
         ends[lane] = ends_[lane] == PathVertex::kNoVertex ? nullptr : &vertices_.matte_end_at(ends_[lane]);
     lanes_.store_ends(std::span(ends).first(surfaces_));
