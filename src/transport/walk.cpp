@@ -8,22 +8,6 @@
 
 namespace etendue {
 
-namespace {
-
-/// Multiplies the throughput by what of the light of a path's wavelengths goes along `sample`.
-void scatter_wavelengths(const World& world, EyePath& path, const Vertex& vertex, const BsdfSample& sample) {
-    const Scattering scattering = vertex.scattering();
-    if (vertex.chooses_wavelength && mirrors_all_wavelengths(scattering, sample)) {
-        path.throughput *= world.spectral_response().mean_over_chance(
-            vertex.wavelength, [&](float nm) { return mirrored_share(scattering, vertex.crossing->relative_ior(nm)); });
-        return;
-    }
-    path.throughput *= vertex.wavelength.weight;
-    path.wavelength_nm = vertex.wavelength.nm;
-}
-
-}  // namespace
-
 VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int depth)
     : medium(numbers.pair(body_dimension(depth, kMedium))),
       wavelength(numbers.pair(body_dimension(depth, kWavelength)).x),
@@ -97,7 +81,13 @@ bool scatter(const World& world, EyePath& path, const Vertex& vertex, const Vert
     }
     if (is_surface && path.edges >= max_depth) return false;
     path.throughput *= sample.weight;
-    if (is_surface) scatter_wavelengths(world, path, vertex, sample);
+    if (is_surface) {
+        const Wavelength after = wavelength_after(
+            vertex.scattering(), vertex.crossing, sample, vertex.wavelength, vertex.chooses_wavelength,
+            [&](const auto& share) { return world.spectral_response().mean_over_chance(vertex.wavelength, share); });
+        path.throughput *= after.weight;
+        path.wavelength_nm = after.nm;
+    }
     path.edges += is_surface ? 1 : 0;
     path.only_deltas = path.only_deltas && sample.is_delta;
     path.last = {.receiver = vertex.receiver(),

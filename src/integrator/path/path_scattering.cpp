@@ -106,7 +106,6 @@ bool PathScattering::scatter_at_surface(const PathContext& context, std::size_t 
         paths_.end_path(context, block_.first + k, PathEnding::TooLong);
         return false;
     }
-    Rgb throughput = paths_.throughput[i] * sample.weight;
     paths_.pdf_solid_angle.set(i, sample.pdf_solid_angle);
     paths_.history.set(i, sample.is_delta ? path_history::after_delta(paths_.history[i])
                                           : path_history::after_lobe(paths_.history[i], 1));
@@ -115,14 +114,11 @@ bool PathScattering::scatter_at_surface(const PathContext& context, std::size_t 
     if (paths_.words.are_followed())
         paths_.follow(block_.first + k, surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance,
                                                       paths_.words.label(world, point)));
-    if (path.chooses_wavelength && mirrors_all_wavelengths(scattering, sample)) {
-        throughput *= world.spectral_response().mean_over_chance(
-            path.wavelength, [&](float nm) { return mirrored_share(scattering, path.crossing->relative_ior(nm)); });
-    } else {
-        throughput *= path.wavelength.weight;
-        paths_.wavelength_nm.set(i, path.wavelength.nm);
-    }
-    paths_.throughput.set(i, throughput);
+    const Wavelength after = wavelength_after(
+        scattering, path.crossing, sample, path.wavelength, path.chooses_wavelength,
+        [&](const auto& share) { return world.spectral_response().mean_over_chance(path.wavelength, share); });
+    paths_.throughput.set(i, paths_.throughput[i] * sample.weight * after.weight);
+    paths_.wavelength_nm.set(i, after.nm);
     if (sample.is_transmission) paths_.eta_scale.set(i, paths_.eta_scale[i] * (sample.eta * sample.eta));
     paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi));
     paths_.direction.set(i, sample.wi);
