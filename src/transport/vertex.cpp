@@ -92,9 +92,7 @@ Vertex surface_vertex(const World& world, const Ray& ray, const RayCone& cone, c
     vertex.hit = hit;
     vertex.surface = world.geometry().surface_point(hit, ray, cone);
     SurfacePoint& point = vertex.surface;
-    if (world.traits().has_bodies && world.media().is_boundary(point))
-        vertex.crossing = hit.in_contact ? world.media().contact_crossing(point, interior, hit, ray, cone)
-                                         : world.media().crossing(point, interior);
+    vertex.crossing = crossing_at(world, point, interior, hit, ray, cone);
     vertex.position = point.position;
     vertex.kind = vertex.crossing && vertex.crossing->is_hidden ? Vertex::Kind::Boundary
                   : point.material->unlit                       ? Vertex::Kind::Unlit

@@ -1,6 +1,7 @@
 #include "integrator/path/path_places.h"
 
 #include "core/in_place.h"
+#include "transport/bodies.h"
 
 #include <cmath>
 
@@ -37,13 +38,9 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     set_up_singly(context, k);
     SurfacePoint& point = block_.singles[k].point;
-    if (world.traits().has_bodies && world.media().is_boundary(point))
-        block_.singles[k].crossing.emplace(InPlace{[&] {
-            return paths_.hits[i].in_contact
-                       ? world.media().contact_crossing(point, paths_.interiors[i], paths_.hits[i], paths_.ray(i),
-                                                        paths_.cone(i))
-                       : world.media().crossing(point, paths_.interiors[i]);
-        }});
+    if (world.traits().has_bodies)
+        block_.singles[k].crossing =
+            crossing_at(world, point, paths_.interiors[i], paths_.hits[i], paths_.ray(i), paths_.cone(i));
     if (point.material->is_pane) block_.panes[k] = {paths_.receiver(i), paths_.metres_passed(i) + paths_.hits[i].t};
     block_.on_emitter.add_if(point.material->emits, k);
     if (block_.singles[k].crossing && block_.singles[k].crossing->is_hidden) {

@@ -197,7 +197,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
     ends_.fill(PathVertex::kNoVertex);
     for (std::size_t s = 0; s < surfaces_; ++s) {
         const std::uint8_t k = on_surface_[s];
-        if (make_vertex(job, first + k, block_[k])) on_surface_[vertices++] = k;
+        if (make_vertex(job, first, k)) on_surface_[vertices++] = k;
     }
     if (makes_matte_ends_) store_matte_ends();
     stamp(profile, Stage::Textures);
@@ -236,12 +236,8 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
     }
     make_in_place(path.point, [&] { return world.geometry().surface_point(hits_[i], rays_[i], RayCone{}); });
     path.crossing.reset();
-    if (world.traits().has_bodies && world.media().is_boundary(path.point))
-        path.crossing.emplace(InPlace{[&] {
-            return hits_[i].in_contact
-                       ? world.media().contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
-                       : world.media().crossing(path.point, interiors_[i]);
-        }});
+    if (world.traits().has_bodies)
+        path.crossing = crossing_at(world, path.point, interiors_[i], hits_[i], rays_[i], RayCone{});
     return true;
 }
 

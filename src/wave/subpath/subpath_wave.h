@@ -118,8 +118,11 @@ class SubpathWave {
     void set_up_plain();
     /// Computes with which densities the block's subpaths arrive at surfaces.
     void arrive_at_surfaces(const SubpathJob& job, std::size_t first);
-    /// Stores the vertex, if the subpath may have one more; false if it ends, or only passes through.
-    bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
+    /// Takes subpath `i` through a boundary that another body hides.
+    void pass_hidden(std::size_t i, const ShadedSubpath& path);
+    /// Stores the vertex of the `k`-th subpath of the block from `first` on, if it may have one more; false if it ends,
+    /// or only passes through.
+    bool make_vertex(const SubpathJob& job, std::size_t first, std::size_t k);
     /// Gives the lane of the vertex just stored, which is plain, a place for its MatteEnd and `end_fewer`; false if the
     /// vertex has no such end.
     bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);

@@ -5,17 +5,24 @@
 
 namespace etendue {
 
-bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path) {
-    SubpathState& state = states_[i];
+void SubpathWave::pass_hidden(std::size_t i, const ShadedSubpath& path) {
+    // No connection passes a boundary.
+    states_[i].departing.is_connectible = false;
+    states_[i].is_direct = false;
+    const SurfacePoint& point = path.point;
     Ray& ray = rays_[i];
+    interiors_[i] = beyond(*path.crossing, point, ray.direction);
+    ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
+}
+
+bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::size_t k) {
+    const std::size_t i = first + k;
+    ShadedSubpath& path = block_[k];
+    SubpathState& state = states_[i];
     const SurfacePoint& point = path.point;
     if (path.crossing && path.crossing->is_hidden) {
-        // No connection passes a boundary.
-        state.departing.is_connectible = false;
-        state.is_direct = false;
-        interiors_[i] = beyond(*path.crossing, point, ray.direction);
-        ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
-        goes_on_[static_cast<std::size_t>(&path - block_.data())] = true;
+        pass_hidden(i, path);
+        goes_on_[k] = true;
         return false;
     }
     if (point.material->unlit) {
@@ -36,7 +43,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
     }
     path.vertex = static_cast<std::uint32_t>(vertices_.all().size());
     PathVertex& vertex = vertices_.store(state);
-    vertex.wo = -ray.direction;
+    vertex.wo = -rays_[i].direction;
     vertex.label = vertices_.words().label(world, point);
     vertex.densities = path.arrived;
     vertex.next_edges = state.edges + 1;
