@@ -1,8 +1,9 @@
 // Cameras: from a point on the film and one on the lens to a ray.
 //
-// To add another: a struct with `pose`, `clip`, `kPanoramic`, `generate_ray`, `connect`, `pixel_cone` and `has_lens`, its
-// place in the variant, its projection in camera.cpp, one case in world/compile_camera.cpp, and its row in tests/camera. What lies nearer or farther than a camera shows is cut off for all of them alike, by the
-// functions on `Camera`.
+// To add another: a struct with `pose`, `clip`, `kPanoramic`, `generate_ray`, `connect`, `pixel_cone` and `has_lens`,
+// its place in the variant, its projection in camera.cpp, one case in world/compile_camera.cpp, and its row in
+// tests/camera. What lies nearer or farther than a camera shows is cut off for all of them alike, by the functions on
+// `Camera`.
 //
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once

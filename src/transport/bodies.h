@@ -13,9 +13,9 @@ namespace etendue {
     return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
 }
 
-/// Returns what `ray`, which comes from within `interior` with `cone` around it, crosses at `point`, which it has hit at
-/// `hit`; nothing if the surface bounds no body. Where several surfaces touch, `point` becomes the one that bounds what
-/// fills the space.
+/// Returns what `ray`, which comes from within `interior` with `cone` around it, crosses at `point`, which it has hit
+/// at `hit`; nothing if the surface bounds no body. Where several surfaces touch, `point` becomes the one that bounds
+/// what fills the space.
 [[nodiscard]] inline std::optional<Crossing> crossing_at(const World& world, SurfacePoint& point,
                                                          const Interior& interior, const Hit& hit, const Ray& ray,
                                                          const RayCone& cone) {

@@ -28,9 +28,9 @@ DeltaBranch go_straight_on(const DeltaBranch& branch, const Vertex& vertex) {
 DeltaBranch grow_along(const World& world, const DeltaBranch& branch, const Vertex& vertex, const BsdfSample& delta,
                        std::uint32_t child) {
     DeltaBranch next = grow(branch, child);
-    const Wavelength after = wavelength_after(
-        vertex.scattering(), vertex.crossing, delta, vertex.wavelength, vertex.chooses_wavelength,
-        [&](const auto& share) { return world.spectral_response().mean(vertex.wavelength, share); });
+    const Wavelength after =
+        wavelength_after(vertex.scattering(), vertex.crossing, delta, vertex.wavelength, vertex.chooses_wavelength,
+                         [&](const auto& share) { return world.spectral_response().mean(vertex.wavelength, share); });
     // The mean of all wavelengths has the share that is mirrored, which is the weight of the delta for one of them.
     const bool is_of_all = vertex.chooses_wavelength && after.nm == 0.0f;
     next.path.throughput *= is_of_all ? after.weight : delta.weight * after.weight;
@@ -41,7 +41,7 @@ DeltaBranch grow_along(const World& world, const DeltaBranch& branch, const Vert
 
 std::optional<DeltaBranch> survivor(DeltaBranch branch) {
     EyePath& path = branch.path;
-    const float chance = branch_survival(max_component(path.throughput) * path.eta_scale, path.rays);
+    const float chance = branch_survival(max_component(path.throughput) * path.roulette_scale, path.rays);
     if (chance >= 1.0f) return branch;
     if (to_unit_float(branch.numbers.bits(kBranchEnd)) >= chance) return {};
     path.throughput *= 1.0f / chance;

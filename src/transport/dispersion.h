@@ -37,7 +37,8 @@ template <typename Mean>
                                                  const BsdfSample& sample, const Wavelength& drawn, bool chooses,
                                                  const Mean& mean) {
     if (!chooses || !mirrors_all_wavelengths(scattering, sample)) return drawn;
-    return {.nm = 0.0f, .weight = mean([&](float nm) { return mirrored_share(scattering, crossing->relative_ior(nm)); })};
+    return {.nm = 0.0f,
+            .weight = mean([&](float nm) { return mirrored_share(scattering, crossing->relative_ior(nm)); })};
 }
 
 }  // namespace etendue

@@ -58,11 +58,10 @@ StrategyLight light_sampled(const SubpathSample& sample, const SubpathVertex& ey
     if (is_black(light.radiance)) return {};
     const auto scattered = eye.evaluate_both_ways(light.wi, TransportMode::Radiance);
     if (is_black(scattered.f_cos)) return {};
-    return {
-        light_contribution(world, eye, eye.throughput * sample.wavelength_weight(eye.is_dispersed), light,
-                           scattered.f_cos, 1.0f / chosen.density(),
-                           {sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index)}),
-        sums_of_light_sample(sample.mis, eye, chosen, scattered)};
+    return {light_contribution(world, eye, eye.throughput * sample.wavelength_weight(eye.is_dispersed), light,
+                               scattered.f_cos, 1.0f / chosen.density(),
+                               {sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index)}),
+            sums_of_light_sample(sample.mis, eye, chosen, scattered)};
 }
 
 StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& eye, const SubpathVertex& light) {

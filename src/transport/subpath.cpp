@@ -29,23 +29,25 @@ SubpathVertex make_vertex(const Subpath& subpath, const Vertex& vertex, const Su
     return {vertex, subpath.throughput, densities, subpath.index, next_edges, subpath.is_dispersed};
 }
 
-/// Sends the subpath on from `vertex`, at which it has arrived with `densities`, along `sample`.
-void depart_from(const SubpathSample& context, Subpath& subpath, const Vertex& vertex,
-                 const SubpathDensities& densities, const BsdfSample& sample) {
-    const float cosine = vertex.cosine(sample.wi);
-    subpath.departing = sample.is_delta ? depart_by_delta(context.mis.raised, densities, sample.reverse_ratio, cosine)
-                                        : depart(context.mis.raised, densities, sample.pdf_solid_angle,
-                                                 vertex.reverse_pdf(sample.wi, subpath.mode()), cosine);
-    subpath.throughput *= sample.weight;
-    if (subpath.end == SubpathEnd::AtEye && sample.is_transmission) subpath.roulette_scale *= sample.eta * sample.eta;
-    subpath.only_deltas = subpath.only_deltas && sample.is_delta;
+/// Sends the subpath on from `vertex`, at which it has arrived with `densities`, along `scattered`.
+void depart_from(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex, const SubpathDensities& densities,
+                 const BsdfSample& scattered) {
+    const float cosine = vertex.cosine(scattered.wi);
+    subpath.departing = scattered.is_delta
+                            ? depart_by_delta(sample.mis.raised, densities, scattered.reverse_ratio, cosine)
+                            : depart(sample.mis.raised, densities, scattered.pdf_solid_angle,
+                                     vertex.reverse_pdf(scattered.wi, subpath.mode()), cosine);
+    subpath.throughput *= scattered.weight;
+    if (subpath.end == SubpathEnd::AtEye && scattered.is_transmission)
+        subpath.roulette_scale *= scattered.eta * scattered.eta;
+    subpath.only_deltas = subpath.only_deltas && scattered.is_delta;
     subpath.is_direct = true;
     subpath.from = vertex.position;
     ++subpath.index;
     subpath.edges += vertex.kind == Vertex::Kind::Surface ? 1 : 0;
-    subpath.ray.origin = vertex.origin_towards(sample.wi);
-    subpath.ray.direction = sample.wi;
-    subpath.interior = vertex.interior_towards(sample.wi);
+    subpath.ray.origin = vertex.origin_towards(scattered.wi);
+    subpath.ray.direction = scattered.wi;
+    subpath.interior = vertex.interior_towards(scattered.wi);
 }
 
 /// Goes straight on through the boundary of a body that another hides, or a pane.

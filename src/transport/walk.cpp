@@ -8,13 +8,13 @@
 
 namespace etendue {
 
-VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int depth)
-    : medium(numbers.pair(body_dimension(depth, kMedium))),
-      wavelength(numbers.pair(body_dimension(depth, kWavelength)).x),
-      lobe(numbers.pair(bounce_dimension(depth, kChoices)).x),
-      direction(numbers.pair(bounce_dimension(depth, kBsdfDirection))),
-      roulette(numbers.pair(bounce_dimension(depth, kChoices)).y),
-      alpha_key(numbers.bits(bounce_dimension(depth, kAlpha))) {}
+VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int rays)
+    : medium(numbers.pair(body_dimension(rays, kMedium))),
+      wavelength(numbers.pair(body_dimension(rays, kWavelength)).x),
+      lobe(numbers.pair(bounce_dimension(rays, kChoices)).x),
+      direction(numbers.pair(bounce_dimension(rays, kBsdfDirection))),
+      roulette(numbers.pair(bounce_dimension(rays, kChoices)).y),
+      alpha_key(numbers.bits(bounce_dimension(rays, kAlpha))) {}
 
 EyePath begin_at_eye(const World& world, const EyeSample& sample) {
     return {
@@ -105,12 +105,12 @@ void leave(const World& world, EyePath& path, const Vertex& vertex, const BsdfSa
     path.ray.direction = sample.wi;
     path.ray.alpha_key = alpha_key;
     path.interior = vertex.interior_towards(sample.wi);
-    if (sample.is_transmission) path.eta_scale *= sample.eta * sample.eta;
+    if (sample.is_transmission) path.roulette_scale *= sample.eta * sample.eta;
 }
 
 bool survives_roulette(const World& world, EyePath& path, float u, int roulette_depth) {
     if (path.rays < first_roulette(world, roulette_depth)) return true;
-    const float survival = eye_path_survival(max_component(path.throughput) * path.eta_scale, path.rays);
+    const float survival = eye_path_survival(max_component(path.throughput) * path.roulette_scale, path.rays);
     path.throughput *= 1.0f / survival;
     return u < survival;
 }

@@ -77,7 +77,8 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
             };
             // Heitz 2014, equation 2.
             const auto density = [&](const Vec3f& h) {
-                return h.z > 0.0f ? static_cast<double>(ggx.g1(wo) * ggx.d(h) * std::max(0.0f, dot(wo, h)) / wo.z) : 0.0;
+                return h.z > 0.0f ? static_cast<double>(ggx.g1(wo) * ggx.d(h) * std::max(0.0f, dot(wo, h)) / wo.z)
+                                  : 0.0;
             };
             const SamplerCheck check = check_sphere_sampler(sampler, density, {.seed = ++seed});
             EXPECT_GE(check.chi2.p_value, level) << check.chi2.str();

@@ -49,7 +49,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         stamp(job.profile, Stage::Mis);
         to_light_.collect(bdpt, SubpathEnd::AtEye, eye_);
         stamp(job.profile, Stage::Numbers);
-        const auto resolve_if_full = [&](Connections& connections) {
+        const auto resolve_if_full = [&](ShadowRayQueue& connections) {
             if (connections.is_full()) connections.resolve(world, job, samples_, found_, tile, counters);
         };
         for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlockLanes) {
@@ -69,8 +69,8 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
             resolve_if_full(wide_camera_connections_);
         }
         if (job.photons != nullptr && bdpt.wants(kMerges)) merge(bdpt);
-        for (Connections* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
-                                         &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
+        for (ShadowRayQueue* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
+                                            &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
             connections->resolve(world, job, samples_, found_, tile, counters);
     }
     lamps_.note_radiance(samples_, found_);

@@ -7,9 +7,9 @@
 #include "integrator/bdpt/observed_paths.h"
 #include "integrator/integrator.h"
 #include "transport/strategy_sums.h"
-#include "wave/connections.h"
 #include "wave/lamps_in_view.h"
 #include "wave/photons.h"
+#include "wave/shadow_ray_queue.h"
 #include "wave/subpath/camera_splat.h"
 #include "wave/subpath/connectible_vertices.h"
 #include "wave/subpath/lamps_to_camera.h"
@@ -106,14 +106,14 @@ class BdptWave final : public IntegratorScratch {
     /// Returns false if there is nothing to say of connections but their rays and the light that they bring.
     [[nodiscard]] bool asks_for_each(const BdptJob& job);
     /// Leaves the first `count` connections of a block, of which there is nothing else to say, to `connections`.
-    static void queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections);
+    static void queue_wide(const ConnectionColumns& lanes, std::size_t count, ShadowRayQueue& connections);
     // Leaves the rays of connections, with what they bring, to `connections`.
     void queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
-               const Brought& brought, Connections& connections);
+               const Brought& brought, ShadowRayQueue& connections);
     void queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
-               const Brought& brought, Connections& connections);
+               const Brought& brought, ShadowRayQueue& connections);
     void queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
-               const Brought& brought, Connections& connections);
+               const Brought& brought, ShadowRayQueue& connections);
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
@@ -144,9 +144,9 @@ class BdptWave final : public IntegratorScratch {
     BetweenLanes between_lanes_;
     // That wait for their rays. What is computed at once waits by itself: which comes first of it and of the others of
     // a sample would depend on what other samples are beside it, and not only where a queue fills.
-    Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
-    Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
-    Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
+    ShadowRayQueue light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
+    ShadowRayQueue camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
+    ShadowRayQueue vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
     ObservedPaths observed_{eye_, light_};
 };
 

@@ -123,7 +123,7 @@ void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
-                     const Brought& brought, Connections& connections) {
+                     const Brought& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     shares_.clear();
@@ -146,7 +146,7 @@ void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::siz
         if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
         const MatteEnd& end = light_.vertices().matte_end(vertex);
-        if (!end.exists() && light_.vertices().whole(vertex).is_hidden) continue;
+        if (!end.exists() && light_.vertices().whole(vertex).is_hidden_from_camera) continue;
         const Vec3f& position = end.exists() ? end.position : light_.vertices().whole(vertex).position;
         const auto view = view_from_camera(job.world(), job.job, position, lens, job.camera_rays[vertex.slot].time);
         if (!view) continue;
@@ -190,7 +190,7 @@ void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
     to_camera_lanes_.connect(wide_to_cameras_.size(), job.rule(), static_cast<float>(job.mis.samples_per_light_path));
     if (!asks_for_each(job))
         return to_camera_lanes_.for_each_wide(
-            wide_to_cameras_.size(), [&](const WideConnections& connections, WideMask which, std::size_t first) {
+            wide_to_cameras_.size(), [&](const WideShadowRays& connections, WideMask which, std::size_t first) {
                 wide_camera_connections_.to_film(connections, which, [&](std::size_t lane) {
                     const CameraView& view = wide_to_cameras_[first + lane].view;
                     return SplatPlace{view.pixel, view.depth};
@@ -204,7 +204,7 @@ void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
-                     const Brought& brought, Connections& connections) {
+                     const Brought& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
     shares_.clear();
@@ -260,7 +260,8 @@ void BdptWave::find_cached(const BdptJob& job, const ConnectibleVertex& eye, int
 
 void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end,
                     const ConnectibleVertex& light, float scale) {
-    if (!job.lengths.keeps(eye.next_edges + light.next_edges - 1) || !job.wants({.s = light.index + 1, .t = eye.index + 1}))
+    if (!job.lengths.keeps(eye.next_edges + light.next_edges - 1) ||
+        !job.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
     const MatteEnd& light_end = light_.vertices().matte_end(light);
     if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, light, scale);
@@ -320,14 +321,14 @@ bool BdptWave::asks_for_each(const BdptJob& job) {
            job.world().traits().has_transparency || observed_.are_seen();
 }
 
-void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {
-    lanes.for_each_wide(count, [&](const WideConnections& wide, WideMask which, std::size_t /*first*/) {
+void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, ShadowRayQueue& connections) {
+    lanes.for_each_wide(count, [&](const WideShadowRays& wide, WideMask which, std::size_t /*first*/) {
         connections.to_sample(wide, which);
     });
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
-                     const Brought& brought, Connections& connections) {
+                     const Brought& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[eye.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
                     job.connection_key(SubpathEnd::AtLight, light.index, light.slot);

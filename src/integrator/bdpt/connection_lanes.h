@@ -3,8 +3,8 @@
 
 #include "core/columns.h"
 #include "integrator/bdpt/matte_connections.h"
-#include "wave/connections.h"
 #include "wave/light_front_columns.h"
+#include "wave/shadow_ray_queue.h"
 
 #include <cstddef>
 
@@ -43,14 +43,14 @@ struct ConnectionColumns {
     void for_each_wide(std::size_t count, const Queue& queue) const {
         for (std::size_t first = 0; first < count; first += Wide::kWidth) {
             const BasicRgb<Wide> light = contribution.load(first);
-            queue(WideConnections{.origin = origin.load(first),
-                                  .direction = direction.load(first),
-                                  .t_max = t_max.load(first),
-                                  .time = 0.0f,
-                                  .alpha_key = 0u,
-                                  .slot = slot.load(first),
-                                  .contribution = light,
-                                  .is_direct = is_direct.load(first) != WideBits(0u)},
+            queue(WideShadowRays{.origin = origin.load(first),
+                                 .direction = direction.load(first),
+                                 .t_max = t_max.load(first),
+                                 .time = 0.0f,
+                                 .alpha_key = 0u,
+                                 .slot = slot.load(first),
+                                 .contribution = light,
+                                 .is_direct = is_direct.load(first) != WideBits(0u)},
                   WideMask::first(count - first) && !is_black(light), first);
         }
     }

@@ -39,7 +39,7 @@ void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySu
 void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                           const SubpathDensities& arrived) {
     if (!parts_.job.lengths.is_long_enough(state.edges)) return;
-    if (state.only_delta && state.edges > 1 && parts_.lamps.finds_image(parts_.job.samples[state.slot])) return;
+    if (state.only_deltas && state.edges > 1 && parts_.lamps.finds_image(parts_.job.samples[state.slot])) return;
     const World& world = parts_.job.world();
     const Rgb emitted = world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
@@ -68,7 +68,7 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
 
 void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-    if (state.only_delta && parts_.job.lengths.is_long_enough(state.edges))
+    if (state.only_deltas && parts_.job.lengths.is_long_enough(state.edges))
         add(state, parts_.job.world().materials().unlit_color(point), {},
             {.position = point.position, .direction = -direction}, parts_.eye.vertices().words().surface_source(point));
 }

@@ -56,13 +56,13 @@ struct PathBlock {
     NumberPairs medium;   ///< x: how far, y: by which channel
     std::array<ShadedPath, kBlockLanes> paths{};
     std::vector<SingleShading> singles{kBlockLanes};
-    std::vector<PanePassage> panes;           ///< only if the World has panes
+    std::vector<PanePassage> panes;                 ///< only if the World has panes
     std::array<ChosenLight, kBlockLanes> lights{};  ///< light samples outside the lanes, by path
-    LaneList escaped;                         ///< paths that have left the scene
-    LaneList on_emitter, on_hidden;           ///< paths on surfaces that emit, on hidden boundaries
-    LaneList on_surface;                      ///< paths on surfaces that may scatter them
-    LaneList sampling;                        ///< paths of `on_surface` that sample lights
-    LaneList on_texture, on_gloss;            ///< paths on textured plain surfaces, in GlossyLanes
+    LaneList escaped;                               ///< paths that have left the scene
+    LaneList on_emitter, on_hidden;                 ///< paths on surfaces that emit, on hidden boundaries
+    LaneList on_surface;                            ///< paths on surfaces that may scatter them
+    LaneList sampling;                              ///< paths of `on_surface` that sample lights
+    LaneList on_texture, on_gloss;                  ///< paths on textured plain surfaces, in GlossyLanes
     BlockLanes lanes;
 
     /// Draws the numbers of the block's paths for a bounce, many at a time.

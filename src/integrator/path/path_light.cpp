@@ -76,7 +76,7 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
     if (context.settings.light_samples > 1)
         for (std::size_t place = 0; place < count; ++place)
             share_estimate(choices[place],
-                           paths_.light_samples(context, block_.first + paths[place], path_history::kOnlyDelta));
+                           paths_.light_samples(context, block_.first + paths[place], path_history::kOnlyDeltas));
     // Places among the paths, by how their lights are sampled.
     LaneList by_mesh;
     LaneList by_environment;
@@ -176,8 +176,7 @@ void PathLight::add_environment(const PathContext& context) {
         meeting.add(k);
     }
     if (meeting.empty()) return;
-    if (context.job.profile != nullptr && context.depth > 1)
-        context.job.profile->use().bsdf_met_light += meeting.size();
+    if (context.job.profile != nullptr && context.rays > 1) context.job.profile->use().bsdf_met_light += meeting.size();
     std::array<EnvironmentRadiance, kBlockLanes> met;
     world.environment().look(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
     for (std::size_t m = 0; m < meeting.size(); ++m) {
@@ -216,14 +215,14 @@ void PathLight::add_emission(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     const SurfacePoint& point = block_.singles[k].point;
     if (!context.settings.lengths.is_long_enough(paths_.edges(i))) return;
-    if (context.depth == 1 && lamps_.finds(paths_.hits[i])) return;
-    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) > 1 &&
+    if (context.rays == 1 && lamps_.finds(paths_.hits[i])) return;
+    if (paths_.is(path_history::kOnlyDeltas, i) && paths_.edges(i) > 1 &&
         lamps_.finds_image(paths_.samples[paths_.slot[i]]))
         return;
     const Vec3f direction = paths_.direction[i];
     const Rgb emitted = context.world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
-    if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
+    if (context.job.profile != nullptr && context.rays > 1) ++context.job.profile->use().bsdf_met_light;
     float weight = 1.0f;
     if (const std::uint32_t samples = paths_.samples_of_met_light(context, i); samples > 0)
         weight = met_light_weight(paths_.pdf_solid_angle[i],
@@ -233,20 +232,20 @@ void PathLight::add_emission(const PathContext& context, std::size_t k) {
     add(i, emitted * weight, paths_.words.surface_source(point));
 }
 
-void PathLight::queue(const PathContext& context, const LaneList& paths, std::uint32_t round) {
+void PathLight::queue_shadow_rays(const PathContext& context, const LaneList& paths, std::uint32_t round) {
     block_.lanes.weigh_light(block_.count, paths_, block_.first);
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += paths.size();
     if (paths_.words.are_followed() || context.world.traits().has_bodies) {
         for (const std::size_t k : paths)
-            if (block_.paths[k].is_wide && block_.lanes.arrives[k] != 0.0f) queue_by_lanes(context, k, round);
+            if (block_.paths[k].is_wide && block_.lanes.arrives[k] != 0.0f) queue_lane(context, k, round);
     } else {
-        queue_by_lanes(context, round);
+        queue_all_lanes(context, round);
     }
     for (const std::size_t k : paths)
         if (!block_.paths[k].is_wide) queue_singly(context, k, round);
 }
 
-void PathLight::queue_by_lanes(const PathContext& context, std::uint32_t round) {
+void PathLight::queue_all_lanes(const PathContext& context, std::uint32_t round) {
     const bool has_transparency = context.world.traits().has_transparency;
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
         const std::size_t i = block_.first + l;
@@ -262,7 +261,7 @@ void PathLight::queue_by_lanes(const PathContext& context, std::uint32_t round) 
              .alpha_key = WideBits::load(alpha_keys.data()),
              .slot = paths_.slot.load(i),
              .contribution = block_.lanes.contribution.load(l),
-             .is_direct = paths_.are(path_history::kOnlyDelta, i)},
+             .is_direct = paths_.are(path_history::kOnlyDeltas, i)},
             block_.lanes.arrives.load(l) != Wide(0.0f) && block_.lanes.is_wide.load(l) != Wide(0.0f));
     }
 }
@@ -279,15 +278,16 @@ void PathLight::queue_singly(const PathContext& context, std::size_t k, std::uin
                                                                path.crossing ? beyond(*path.crossing, point, light.wi)
                                                                              : paths_.interiors[block_.first + k],
                                                                light.distance);
-    queue(context, k, round,
-          shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
-          contribution, block_.paths[k].light,
-          paths_.words.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
-                                                      paths_.words.label(context.world, point))
-                                      : VertexEvent{});
+    queue_shadow_ray(
+        context, k, round,
+        shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
+        contribution, block_.paths[k].light,
+        paths_.words.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
+                                                    paths_.words.label(context.world, point))
+                                    : VertexEvent{});
 }
 
-void PathLight::queue_by_lanes(const PathContext& context, std::size_t k, std::uint32_t round) {
+void PathLight::queue_lane(const PathContext& context, std::size_t k, std::uint32_t round) {
     Rgb contribution = block_.lanes.contribution[k];
     if (context.world.traits().has_bodies)
         contribution *=
@@ -296,15 +296,16 @@ void PathLight::queue_by_lanes(const PathContext& context, std::size_t k, std::u
     ray.origin = block_.lanes.shadow_origin[k];
     ray.direction = block_.lanes.shadow_direction[k];
     ray.t_max = block_.lanes.shadow_t_max[k];
-    queue(context, k, round, ray, contribution, block_.paths[k].light,
-          paths_.words.are_followed() ? block_.wide_event(context.world, paths_.words, k, block_.lanes.light_wi[k])
-                                      : VertexEvent{});
+    queue_shadow_ray(context, k, round, ray, contribution, block_.paths[k].light,
+                     paths_.words.are_followed()
+                         ? block_.wide_event(context.world, paths_.words, k, block_.lanes.light_wi[k])
+                         : VertexEvent{});
 }
 
 LightNumbers PathLight::draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const {
     const SampleKey key = paths_.light_sample_key(context, block_.first + k, round);
     const auto draw = [&](BounceDimension which) {
-        return sample_2d(context.job.sequence, key, bounce_dimension(context.depth, which));
+        return sample_2d(context.job.sequence, key, bounce_dimension(context.rays, which));
     };
     return {draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
 }
@@ -312,7 +313,7 @@ LightNumbers PathLight::draw_numbers(const PathContext& context, std::size_t k, 
 void PathLight::queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
                                 const HomogeneousMedium& medium) {
     const std::size_t i = block_.first + k;
-    const std::uint32_t samples = paths_.light_samples(context, i, path_history::kOnlyDelta);
+    const std::uint32_t samples = paths_.light_samples(context, i, path_history::kOnlyDeltas);
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += samples;
     for (std::uint32_t round = 0; round < samples; ++round) {
         const LightNumbers numbers = round == 0 ? block_.light_numbers(k) : draw_numbers(context, k, round);
@@ -322,10 +323,10 @@ void PathLight::queue_in_medium(const PathContext& context, std::size_t k, const
         const LightSample& light = chosen.sample;
         if (is_black(light.radiance)) continue;
         const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);
-        queue(context, k, round, shadow_ray(position, light),
-              paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
-                  (phase * light_sample_scale(chosen, phase)),
-              chosen.light, VertexEvent{});
+        queue_shadow_ray(context, k, round, shadow_ray(position, light),
+                         paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
+                             (phase * light_sample_scale(chosen, phase)),
+                         chosen.light, VertexEvent{});
     }
 }
 
@@ -336,8 +337,8 @@ void PathLight::add(std::size_t i, const Rgb& light, const AovSet::Source& sourc
     found_.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
 }
 
-void PathLight::queue(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
-                      std::uint32_t light, const VertexEvent& event) {
+void PathLight::queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray,
+                                 const Rgb& contribution, std::uint32_t light, const VertexEvent& event) {
     if (is_black(contribution)) return;
     const std::size_t i = block_.first + k;
     shares_.clear();
@@ -346,7 +347,7 @@ void PathLight::queue(const PathContext& context, std::size_t k, std::uint32_t r
     ray.time = paths_.time[i];
     ray.alpha_key = paths_.shadow_alpha_key(context, block_.first + k, round);
     shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
-                           paths_.is(path_history::kOnlyDelta, i) ? LightKind::Direct : LightKind::Indirect, shares_);
+                           paths_.is(path_history::kOnlyDeltas, i) ? LightKind::Direct : LightKind::Indirect, shares_);
 }
 
 std::size_t PathLight::bytes() const {

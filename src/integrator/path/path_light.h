@@ -4,8 +4,8 @@
 #include "core/rgb.h"
 #include "integrator/path/path_block.h"
 #include "wave/aov/sample_light.h"
-#include "wave/connections.h"
 #include "wave/lamps_in_view.h"
+#include "wave/shadow_ray_queue.h"
 
 #include <array>
 #include <cstddef>
@@ -55,7 +55,7 @@ class PathLight {
     /// Evaluates the BSDF of path `k`, which is not wide, towards its light sample.
     void evaluate(std::size_t k);
     /// Queues shadow rays from `paths` to the lights that the block has sampled.
-    void queue(const PathContext& context, const LaneList& paths, std::uint32_t round);
+    void queue_shadow_rays(const PathContext& context, const LaneList& paths, std::uint32_t round);
     /// Samples all lights of path `k`, which `medium` has scattered at `position`, and queues the shadow rays.
     void queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
                          const HomogeneousMedium& medium);
@@ -73,22 +73,22 @@ class PathLight {
     void take_from_lanes(std::size_t k);
     void put_into_lanes(std::size_t k);
     void queue_singly(const PathContext& context, std::size_t k, std::uint32_t round);
-    void queue_by_lanes(const PathContext& context, std::size_t k, std::uint32_t round);
+    void queue_lane(const PathContext& context, std::size_t k, std::uint32_t round);
     /// Queues the shadow rays of all paths that are wide, at once, where no words are followed and there are no bodies.
-    void queue_by_lanes(const PathContext& context, std::uint32_t round);
+    void queue_all_lanes(const PathContext& context, std::uint32_t round);
     /// Draws the numbers for the `round`-th light sample of path `k` alone.
     [[nodiscard]] LightNumbers draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const;
     /// Queues `ray` of path `k` towards `light` with its `contribution`; `event` is how the vertex scatters towards
     /// that light.
-    void queue(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
-               std::uint32_t light, const VertexEvent& event);
+    void queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray,
+                          const Rgb& contribution, std::uint32_t light, const VertexEvent& event);
 
     WavePaths& paths_;
     PathBlock& block_;
     std::array<LightSample, kBlockLanes> environment_samples_{};  ///< light samples of the environment
     std::array<LightReceiver, kBlockLanes> receivers_;            ///< what lights are chosen for, side by side
-    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the contribution at hand
-    Connections shadow_rays_{RayKind::Shadow};
+    std::vector<ExpressionShare> shares_;                         ///< shares of expressions in the contribution at hand
+    ShadowRayQueue shadow_rays_{RayKind::Shadow};
     LampsInView lamps_;
     // By slot, that is, by camera sample.
     SampleLight found_;

@@ -50,7 +50,7 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
     }
     if (!point.material->unlit) return true;
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-    if (paths_.is(path_history::kOnlyDelta, i) && context.settings.lengths.is_long_enough(paths_.edges(i)))
+    if (paths_.is(path_history::kOnlyDeltas, i) && context.settings.lengths.is_long_enough(paths_.edges(i)))
         light_.add(i, world.materials().unlit_color(point), paths_.words.surface_source(point));
     paths_.end_path(context, block_.first + k, PathEnding::Unlit);
     return false;
@@ -122,8 +122,7 @@ void PathPlaces::make_scattering(const PathContext& context) {
         }
         block_.lanes.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
         block_.on_gloss.add_if(path.glossy != nullptr, k);
-        block_.sampling.add_if(samples_lights &&
-                                   context.settings.lengths.keeps(paths_.edges(block_.first + k) + 1) &&
+        block_.sampling.add_if(samples_lights && context.settings.lengths.keeps(paths_.edges(block_.first + k) + 1) &&
                                    (path.is_wide || block_.singles[k].scattering->has_non_delta()),
                                k);
     }
@@ -152,7 +151,7 @@ void PathPlaces::make_scattering_singly(const PathContext& context, std::size_t 
     single.chooses_wavelength = crossing && crossing->disperses() && paths_.wavelength_nm[i] == 0.0f;
     if (single.chooses_wavelength)
         single.wavelength = world.spectral_response().sample(
-            sample_2d(context.job.sequence, paths_.key(i), body_dimension(context.depth, kWavelength)).x);
+            sample_2d(context.job.sequence, paths_.key(i), body_dimension(context.rays, kWavelength)).x);
     const Bsdf& bsdf = world.materials().bsdf(point, wo, crossing ? crossing->relative_ior(single.wavelength.nm) : 0.0f,
                                               single.storage);
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);

@@ -119,7 +119,7 @@ bool PathScattering::scatter_at_surface(const PathContext& context, std::size_t 
         [&](const auto& share) { return world.spectral_response().mean_over_chance(path.wavelength, share); });
     paths_.throughput.set(i, paths_.throughput[i] * sample.weight * after.weight);
     paths_.wavelength_nm.set(i, after.nm);
-    if (sample.is_transmission) paths_.eta_scale.set(i, paths_.eta_scale[i] * (sample.eta * sample.eta));
+    if (sample.is_transmission) paths_.roulette_scale.set(i, paths_.roulette_scale[i] * (sample.eta * sample.eta));
     paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi));
     paths_.direction.set(i, sample.wi);
     paths_.alpha_key.set(i, paths_.next_alpha_key(context, block_.first + k));

@@ -28,15 +28,15 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     paths_.begin(world, job, camera_rays);
     active_ = count;
     stamp(job.profile, Stage::Generate);
-    for (int depth = 1; active_ > 0; ++depth) {
-        intersect_batch(world, job, depth == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
+    for (int rays = 1; active_ > 0; ++rays) {
+        intersect_batch(world, job, rays == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
                         std::span(paths_.hits).first(active_), counters);
-        if (depth == 1)
+        if (rays == 1)
             hide_unseen_hits(world, camera_rays, std::span(paths_.hits).first(count));
         else
             look_again(world, job, counters);
         light_.count_rays(active_);
-        if (depth == 1) {
+        if (rays == 1) {
             const std::span hits = std::span(paths_.hits).first(count);
             find_first_hits(world, job, samples, camera_rays, hits, tile);
             light_.lamps().note(samples, camera_rays, hits, counters);
@@ -44,7 +44,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
         }
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { light_.trace_shadow_rays(world, job, tile, counters); };
-        shade({world, job, settings, depth}, trace_shadow_rays);
+        shade({world, job, settings, rays}, trace_shadow_rays);
         trace_shadow_rays();
     }
     light_.finish(job, count, tile, counters);
@@ -94,7 +94,7 @@ void PathWave::queue_light_samples(const PathContext& context, const LaneList& p
     for (const std::size_t k : paths)
         if (!block_.paths[k].is_wide) light_.evaluate(k);
     stamp(Stage::Material);
-    light_.queue(context, paths, round);
+    light_.queue_shadow_rays(context, paths, round);
     stamp(Stage::Mis);
 }
 
@@ -102,7 +102,7 @@ template <typename Stamp>
 void PathWave::take_more_light_samples(const PathContext& context, const Stamp& stamp) {
     if (context.settings.light_samples <= 1) return;
     LaneList split;
-    for (const std::size_t k : block_.sampling) split.add_if(paths_.is(path_history::kOnlyDelta, block_.first + k), k);
+    for (const std::size_t k : block_.sampling) split.add_if(paths_.is(path_history::kOnlyDeltas, block_.first + k), k);
     if (split.empty()) return;
     for (std::uint32_t round = 1; round < context.settings.light_samples; ++round) {
         block_.draw_light_numbers(context, paths_, round);
@@ -161,14 +161,15 @@ void PathWave::shade_block(const PathContext& context, std::size_t first, std::s
 
 void PathWave::keep_survivors(const PathContext& context, std::size_t& kept) {
     const World& world = context.world;
-    const bool is_spared = context.depth < first_roulette(world, context.settings.lengths.roulette_depth);
+    const bool is_spared = context.rays < first_roulette(world, context.settings.lengths.roulette_depth);
     BlockSurvivors survivors(block_.first, kept);
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
         const std::size_t i = block_.first + l;
         const BasicRgb<Wide> throughput = paths_.throughput.load(i);
         const Wide survival =
-            is_spared ? Wide(1.0f)
-                      : eye_path_survival(max_component<Wide>(throughput) * paths_.eta_scale.load(i), context.depth);
+            is_spared
+                ? Wide(1.0f)
+                : eye_path_survival(max_component<Wide>(throughput) * paths_.roulette_scale.load(i), context.rays);
         paths_.throughput.store(i, throughput * (Wide(1.0f) / survival));
         const WideMask goes_on = block_.lanes.goes_on.load(l) != Wide(0.0f);
         const WideMask survives = block_.choices.load(l).y < survival;

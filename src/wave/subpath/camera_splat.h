@@ -25,8 +25,9 @@ struct CameraView : LensView {
                                                                 const Vec3f& position, Vec2f lens, float time) {
     const std::optional<LensView> seen = view_from_lens(world, position, lens, time);
     if (!seen) return std::nullopt;
-    CameraView view{*seen, {seen->camera.film.x * static_cast<float>(job.full_width),
-                            seen->camera.film.y * static_cast<float>(job.full_height)}};
+    CameraView view{*seen,
+                    {seen->camera.film.x * static_cast<float>(job.full_width),
+                     seen->camera.film.y * static_cast<float>(job.full_height)}};
     if (!is_in_view(world, job, view.pixel)) return std::nullopt;
     if (job.aovs != nullptr && job.aovs->layout.is_deep) view.depth = world.camera().depth(position, time);
     return view;

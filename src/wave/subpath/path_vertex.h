@@ -41,7 +41,7 @@ struct PathVertex {
     bool merges = false;                 ///< subpaths from the other end may merge with this one here
     bool is_reached_directly = true;     ///< false if boundaries that other bodies hide lie before it
     bool is_seen_directly = true;        ///< nothing but deltas lie between the eye and it
-    bool is_hidden = false;              ///< the surface is hidden from the camera
+    bool is_hidden_from_camera = false;  ///< the surface is hidden from the camera
     bool is_left_by_delta = false;       ///< the subpath went on by one
     float delta_reverse_ratio = 1.0f;    ///< BsdfSample::reverse_ratio of the delta by which it was left
 

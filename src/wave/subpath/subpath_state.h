@@ -25,7 +25,7 @@ struct SubpathState {
     int index = 1;  ///< index of the vertex to come
     int edges = 1;  ///< edges of the path when its ray has hit; media, panes and hidden boundaries add none
     bool is_dispersed = false;
-    bool only_delta = true;
+    bool only_deltas = true;
     bool lights_directly = true;  ///< every scattering but the last was a delta
     bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
 };

@@ -18,7 +18,7 @@ namespace {
 void find_light(LightFinder& finder, const SubpathState& state, const Ray& ray, const Hit& hit,
                 const ShadedSubpath& path, bool is_first) {
     if (!hit.valid()) return finder.on_escape(state, ray.direction);
-    if (path.point.material->emits && !(is_first && finder.knows_emission(hit)))
+    if (path.point.material->emits && !(is_first && finder.finds_emission(hit)))
         finder.on_emitter(state, path.point, ray.direction, path.arrived);
     if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
         finder.on_unlit(state, path.point, ray.direction);
@@ -274,7 +274,8 @@ void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {
     const SubpathState& state = states_[i];
     if (state.index > 1)
-        return state.departing.arrive(job.mis.raised, static_cast<double>(length_squared(position - state.from)), cosine);
+        return state.departing.arrive(job.mis.raised, static_cast<double>(length_squared(position - state.from)),
+                                      cosine);
     if (end_ == SubpathEnd::AtLight)
         return arrive_from_light(job.mis, emissions_[state.slot], state.departing, position, cosine);
     const Vec2f lens = job.samples[state.slot].lens;
@@ -309,8 +310,8 @@ bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& pos
     SubpathState& state = states_[i];
     state.throughput *= weight;
     state.from = position;
-    state.lights_directly = state.only_delta;
-    state.only_delta = state.only_delta && is_delta;
+    state.lights_directly = state.only_deltas;
+    state.only_deltas = state.only_deltas && is_delta;
     ++state.index;
     ++state.edges;
     return true;
@@ -351,9 +352,10 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
                                surface_event(scattering, sample.wi, sample.is_delta, mode_of(end_), vertex.label));
     if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     const float cosine = abs_dot(sample.wi, point.geometric_normal);
-    state.departing = sample.is_delta ? depart_by_delta(job.mis.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
-                                      : depart(job.mis.raised, path.arrived, sample.pdf_solid_angle,
-                                               scattering.reverse_pdf_solid_angle(sample.wi, mode_of(end_)), cosine);
+    state.departing = sample.is_delta
+                          ? depart_by_delta(job.mis.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
+                          : depart(job.mis.raised, path.arrived, sample.pdf_solid_angle,
+                                   scattering.reverse_pdf_solid_angle(sample.wi, mode_of(end_)), cosine);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
@@ -395,8 +397,8 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     const float phase = medium->phase.pdf_solid_angle(wo, ray.direction);
     state.from = vertex.position;
     state.departing = depart(job.mis.raised, vertex.densities, phase, phase, 1.0f);
-    state.lights_directly = state.only_delta;
-    state.only_delta = false;
+    state.lights_directly = state.only_deltas;
+    state.only_deltas = false;
     if (vertices_.words().are_followed()) vertices_.follow_words(state, VertexEvent{});
     ++state.index;
     return true;

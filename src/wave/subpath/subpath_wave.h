@@ -66,7 +66,7 @@ class LightFinder {
     /// Hears what all camera rays have met, before any other call tells of it.
     virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
     /// True if `on_emitter` is not to be told of what a camera ray has hit first.
-    [[nodiscard]] virtual bool knows_emission(const Hit& first_hit) const = 0;
+    [[nodiscard]] virtual bool finds_emission(const Hit& first_hit) const = 0;
 };
 
 /// A subpath whose ray has hit a surface, between the stages of its shading.
@@ -108,8 +108,8 @@ class SubpathWave {
         return end_ == SubpathEnd::AtLight && world.traits().culls_backs;
     }
     void draw_numbers(const SubpathJob& job);
-    /// Advances subpaths [first, first + count), count <= kBlockLanes, stage by stage, and moves those that go on to where
-    /// `kept` says.
+    /// Advances subpaths [first, first + count), count <= kBlockLanes, stage by stage, and moves those that go on to
+    /// where `kept` says.
     void advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
                        std::size_t& kept);
     /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
@@ -160,7 +160,8 @@ class SubpathWave {
     NumberPairs scattering_, choices_, medium_;
     // Of the block that advances.
     std::array<ShadedSubpath, kBlockLanes> block_;
-    std::array<std::uint8_t, kBlockLanes> on_surface_{};  ///< places in the block of those on surfaces, then with vertices
+    std::array<std::uint8_t, kBlockLanes>
+        on_surface_{};  ///< places in the block of those on surfaces, then with vertices
     std::size_t surfaces_ = 0;
     MatteLanes lanes_;
     std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none

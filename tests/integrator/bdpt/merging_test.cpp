@@ -100,8 +100,7 @@ TEST(Merging, AloneFindsWhatNothingElseDoes) {
     const World world = compile(plate_over_floor(0.2f));
     const double expected = light_through_plate();
     for (const bool weighted : {true, false})
-        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(merges_alone(weighted)), 32), expected,
-                    0.02 * expected);
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(merges_alone(weighted)), 32), expected, 0.02 * expected);
 }
 
 // A grey box, lit by a lamp that the camera does not see: one way to each path, wherever subpaths could merge.

@@ -223,7 +223,8 @@ class GivenPath {
         const double fewer =
             light_.vertices[i].densities.fewer(job_.mis.raised, static_cast<double>(value.pdf_solid_angle)) +
             eye_.vertices[i].densities.fewer(job_.mis.raised, static_cast<double>(value.reverse_pdf_solid_angle));
-        return 1.0 / (1.0 + job_.mis.merging.others(fewer / job_.mis.raised(job_.mis.merging.expected(path_.inner[i]->position))));
+        return 1.0 / (1.0 + job_.mis.merging.others(
+                                fewer / job_.mis.raised(job_.mis.merging.expected(path_.inner[i]->position))));
     }
 
     const SubpathJob& job_;

@@ -18,8 +18,8 @@
 namespace etendue::test {
 
 /// Of the agreement cases' size; all `threads` (0: of the machine) make the same.
-[[nodiscard]] inline std::vector<float> render_bdpt(const World& world, IntegratorSettings settings,
-                                                    std::uint32_t spp, std::uint32_t seed, int threads = 0,
+[[nodiscard]] inline std::vector<float> render_bdpt(const World& world, IntegratorSettings settings, std::uint32_t spp,
+                                                    std::uint32_t seed, int threads = 0,
                                                     WeightObserver* observer = nullptr) {
     settings.merging.at = MergeAt::Nothing;
     const ThreadPool pool(threads);

@@ -81,7 +81,8 @@ class CropObserver final : public WeightObserver {
   public:
     /// All must outlive it.
     CropObserver(const World& world, const TileJob& whole, const PathLengths& lengths)
-        : whole_{.mis = mis_context(world, whole, {.heuristic = Heuristic::Balance}), .job = whole, .lengths = lengths} {}
+        : whole_{
+              .mis = mis_context(world, whole, {.heuristic = Heuristic::Balance}), .job = whole, .lengths = lengths} {}
 
     void on_weight(const SubpathJob& job, const CompletePath& path, double) override {
         const std::vector<double> in_crop = reference_weights(job, path);
