@@ -43,8 +43,8 @@ Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
 
 std::unique_ptr<const LampImages> BdptIntegrator::lamp_images(const World& world, const TileJob& whole,
                                                               const PixelRect& window) const {
-    // They are of no single strategy, and an observer is to see all weights.
-    if (!settings_.lamp_images || settings_.strategy || observer_ != nullptr) return nullptr;
+    // They are of no single strategy.
+    if (!settings_.lamp_images || settings_.strategy) return nullptr;
     return find_lamp_images(world, whole, window);
 }
 
@@ -60,7 +60,7 @@ void BdptIntegrator::trace_photons(const World& world, const TileJob& job, Integ
 void BdptIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
     auto& wave = static_cast<BdptWave&>(scratch);
-    wave.start(world, job, settings_, observer_);
+    wave.start(world, job, settings_);
     trace_in_waves<BdptWave>(world, job, settings_, scratch, tile, counters);
     wave.finish(tile, counters);
 }

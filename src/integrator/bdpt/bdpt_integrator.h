@@ -10,16 +10,13 @@
 // material.
 #pragma once
 
-#include "integrator/bdpt/weight_observer.h"
 #include "integrator/integrator.h"
 
 namespace etendue {
 
 class BdptIntegrator final : public Integrator {
   public:
-    /// `observer` must outlive the integrator; null if nobody sees weights.
-    explicit BdptIntegrator(const IntegratorSettings& settings, WeightObserver* observer = nullptr)
-        : settings_(settings), observer_(observer) {}
+    explicit BdptIntegrator(const IntegratorSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -35,7 +32,6 @@ class BdptIntegrator final : public Integrator {
 
   private:
     IntegratorSettings settings_;
-    WeightObserver* observer_;
 };
 
 }  // namespace etendue

@@ -36,7 +36,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
                         .camera_rays = camera_rays_},
                        settings};
     const SparedRays spared = spared_rays(settings.lengths.roulette_depth);
-    MetLight met({bdpt, eye_, lamps_, observed_, found_, alpha_, tile, counters});
+    MetLight met({bdpt, eye_, lamps_, found_, alpha_, tile, counters});
     eye_.trace(bdpt, spared.of_eye, &met, found_, counters);
     if (world.traits().has_lights) {
         light_.trace(bdpt, spared.of_light, nullptr, found_, counters);
@@ -125,9 +125,7 @@ void BdptWave::merge(const BdptJob& job) {
     stamp(job.job.profile, Stage::Mis);
 }
 
-void BdptWave::start(const World& world, const TileJob& job, const IntegratorSettings& settings,
-                     WeightObserver* observer) {
-    observed_.start(observer);
+void BdptWave::start(const World& world, const TileJob& job, const IntegratorSettings& settings) {
     const bool is_wanted = !settings.strategy || *settings.strategy == Strategy{.s = 0, .t = 2};
     lamps_.start(
         world, job, settings.lengths, false,

@@ -4,7 +4,6 @@
 #include "integrator/bdpt/bdpt_job.h"
 #include "integrator/bdpt/connection_lanes.h"
 #include "integrator/bdpt/light_vertices.h"
-#include "integrator/bdpt/observed_paths.h"
 #include "integrator/integrator.h"
 #include "transport/strategy_sums.h"
 #include "wave/lamps_in_view.h"
@@ -32,8 +31,8 @@ class BdptWave final : public IntegratorScratch {
 
     [[nodiscard]] std::size_t bytes() const override;
 
-    /// Starts a job, before its samples are traced. `observer` may be null.
-    void start(const World& world, const TileJob& job, const IntegratorSettings& settings, WeightObserver* observer);
+    /// Starts a job, before its samples are traced.
+    void start(const World& world, const TileJob& job, const IntegratorSettings& settings);
     /// Ends the job, after its samples are traced.
     void finish(TileBuffer& tile, RenderCounters& counters) { lamps_.finish(tile, counters); }
     /// Appends to `photons` those of the light subpaths of samples [first, first + count) of the job, count <=
@@ -68,8 +67,7 @@ class BdptWave final : public IntegratorScratch {
     // Those of plain matte surfaces, whose lanes are computed at once.
     struct WideToLight {
         const ConnectibleVertex* vertex;
-        std::uint32_t light;     ///< light that was chosen
-        std::uint32_t triangle;  ///< triangle of the light
+        std::uint32_t light;  ///< light that was chosen
     };
     struct WideToCamera {
         const ConnectibleVertex* vertex;
@@ -108,12 +106,12 @@ class BdptWave final : public IntegratorScratch {
     /// Leaves the first `count` connections of a block, of which there is nothing else to say, to `connections`.
     static void queue_wide(const ConnectionColumns& lanes, std::size_t count, ShadowRayQueue& connections);
     // Leaves the rays of connections, with what they bring, to `connections`.
-    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
-               const Brought& brought, ShadowRayQueue& connections);
-    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
-               const Brought& brought, ShadowRayQueue& connections);
+    void queue(const BdptJob& job, const ConnectibleVertex& vertex, std::uint32_t light, const Vec3f& wi, Ray ray,
+               const Rgb& brought, ShadowRayQueue& connections);
+    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray, const Rgb& brought,
+               ShadowRayQueue& connections);
     void queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
-               const Brought& brought, ShadowRayQueue& connections);
+               const Rgb& brought, ShadowRayQueue& connections);
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
@@ -134,7 +132,7 @@ class BdptWave final : public IntegratorScratch {
     std::vector<LightReceiver> receivers_;
     std::vector<Vec2f> choosing_;  ///< numbers for the choice of a light
     std::vector<LightTree::Choice> choices_;
-    std::vector<std::size_t> lit_;  ///< whose they are
+    std::vector<std::size_t> lit_;  ///< vertices that the numbers and choices are for, as places in `to_light_`
     std::vector<WideToLight> wide_to_lights_;
     std::vector<WideToCamera> wide_to_cameras_;
     std::array<WideBetween, kBlockLanes> wide_between_{};
@@ -147,7 +145,6 @@ class BdptWave final : public IntegratorScratch {
     ShadowRayQueue light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
     ShadowRayQueue camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
     ShadowRayQueue vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
-    ObservedPaths observed_{eye_, light_};
 };
 
 }  // namespace etendue

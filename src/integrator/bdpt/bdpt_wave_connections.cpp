@@ -61,7 +61,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         }
         const std::size_t lane = wide_to_lights_.size();
         const MeshLight::TriangleChoice& on_light = triangles[i];
-        wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
+        wide_to_lights_.push_back({&vertex, choice.light});
         to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
         to_light_lanes_.eye.set(lane, eye_.vertices().matte_end(vertex));
         to_light_lanes_.front.set(lane, *mesh, on_light);
@@ -91,16 +91,9 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share = job.weight(sums_of_light_sample(job.mis, vertex, chosen, value));
     if (share == 0.0f) return;
-    queue(job, *connection.vertex,
-          {.light = chosen.light,
-           .triangle = light.triangle,
-           .position = vertex.position + light.wi * (std::isinf(light.distance) ? 0.0f : light.distance),
-           .direction = -light.wi,
-           .cos_light = light.cos_light},
-          shadow_ray(vertex.origin(light.wi), light),
-          {vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
-               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / chosen.density()),
-           share},
+    queue(job, *connection.vertex, chosen.light, light.wi, shadow_ray(vertex.origin(light.wi), light),
+          vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
+              job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / chosen.density()),
           light_connections_);
 }
 
@@ -108,33 +101,25 @@ void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
     to_light_lanes_.connect(wide_to_lights_.size(), job.rule(), job.world().emitters().aim(job.mis.aims));
     if (!asks_for_each(job)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
-        const auto& [vertex, light, triangle] = wide_to_lights_[lane];
-        const Brought brought = to_light_lanes_.brought(lane);
-        if (is_black(brought.light)) continue;
-        const Vec3f wi = to_light_lanes_.wi[lane];
-        queue(job, *vertex,
-              {.light = light,
-               .triangle = triangle,
-               .position = to_light_lanes_.eye[lane].position + wi * to_light_lanes_.distance[lane],
-               .direction = -wi,
-               .cos_light = to_light_lanes_.cos_light[lane]},
-              to_light_lanes_.ray(lane), brought, wide_light_connections_);
+        const auto& [vertex, light] = wide_to_lights_[lane];
+        if (const Rgb brought = to_light_lanes_.contribution[lane]; !is_black(brought))
+            queue(job, *vertex, light, to_light_lanes_.wi[lane], to_light_lanes_.ray(lane), brought,
+                  wide_light_connections_);
     }
 }
 
-void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
-                     const Brought& brought, ShadowRayQueue& connections) {
+void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, std::uint32_t light, const Vec3f& wi, Ray ray,
+                     const Rgb& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     shares_.clear();
     if (PathWords& words = eye_.vertices().words(); words.are_followed()) {
         const PathVertex& whole = eye_.vertices().whole(vertex);
-        words.end_at_light(whole.words, whole.event(-end.direction, TransportMode::Radiance),
-                           words.light_source(job.world(), end.light), shares_);
+        words.end_at_light(whole.words, whole.event(wi, TransportMode::Radiance),
+                           words.light_source(job.world(), light), shares_);
     }
-    connections.to_sample(ray, vertex.slot, brought.light,
-                          vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
-    if (observed_.are_seen()) observed_.show(job, 1, brought.weight, end, vertex.vertex);
+    connections.to_sample(ray, vertex.slot, brought, vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect,
+                          shares_);
 }
 
 void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::size_t last) {
@@ -180,9 +165,8 @@ void BdptWave::weigh(const BdptJob& job, const ToCamera& connection) {
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share = job.weight(sums_at_lens(job.mis, vertex, view.direction, view.camera, value));
     queue(job, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
-          {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
-               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
-           share},
+          vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
+              job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
           camera_connections_);
 }
 
@@ -198,22 +182,21 @@ void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
             });
     for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
         const auto& [vertex, view] = wide_to_cameras_[lane];
-        if (const Brought brought = to_camera_lanes_.brought(lane); !is_black(brought.light))
+        if (const Rgb brought = to_camera_lanes_.contribution[lane]; !is_black(brought))
             queue(job, *vertex, view, to_camera_lanes_.ray(lane), brought, wide_camera_connections_);
     }
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
-                     const Brought& brought, ShadowRayQueue& connections) {
+                     const Rgb& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
     shares_.clear();
     if (light_.vertices().words().are_followed())
         light_.vertices().words().end_at_camera(
             light_.vertices().words_after(light_.vertices().whole(vertex), view.direction), shares_);
-    connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought.light, .depth = view.depth},
+    connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought, .depth = view.depth},
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
-    if (observed_.are_seen()) observed_.show_to_camera(job, vertex, brought.weight, view.camera);
 }
 
 void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last) {
@@ -291,12 +274,10 @@ void BdptWave::weigh(const BdptJob& job, const Between& connection) {
     const PathVertex& eye = eye_.vertices().whole(*eye_vertex);
     const PathVertex& light = light_.vertices().whole(*light_vertex);
     const float share = job.weight(sums_between(job.mis.raised, eye, light, w, squared, at_eye, at_light));
-    queue(
-        job, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
-        {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
-             job.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
-         share},
-        vertex_connections_);
+    queue(job, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
+          eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
+              job.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
+          vertex_connections_);
 }
 
 void BdptWave::weigh_wide_between(const BdptJob& job) {
@@ -311,14 +292,14 @@ void BdptWave::weigh_wide_between(const BdptJob& job) {
     between_lanes_.connect(count, job.rule());
     if (!asks_for_each(job)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
     for (std::size_t lane = 0; lane < count; ++lane)
-        if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
+        if (const Rgb brought = between_lanes_.contribution[lane]; !is_black(brought))
             queue(job, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
                   wide_vertex_connections_);
 }
 
 bool BdptWave::asks_for_each(const BdptJob& job) {
     return eye_.vertices().words().are_followed() || job.world().traits().has_motion ||
-           job.world().traits().has_transparency || observed_.are_seen();
+           job.world().traits().has_transparency;
 }
 
 void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, ShadowRayQueue& connections) {
@@ -328,7 +309,7 @@ void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Sha
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
-                     const Brought& brought, ShadowRayQueue& connections) {
+                     const Rgb& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[eye.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
                     job.connection_key(SubpathEnd::AtLight, light.index, light.slot);
@@ -340,8 +321,7 @@ void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& eye, const Con
         eye_.vertices().words().join(eye_.vertices().words_after(at_eye, w), light_.vertices().words(),
                                      light_.vertices().words_after(at_light, -w), shares_);
     }
-    connections.to_sample(ray, eye.slot, brought.light, LightKind::Indirect, shares_);
-    if (observed_.are_seen()) observed_.show_between(job, eye, light, brought.weight);
+    connections.to_sample(ray, eye.slot, brought, LightKind::Indirect, shares_);
 }
 
 }  // namespace etendue

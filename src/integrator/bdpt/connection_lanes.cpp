@@ -15,8 +15,6 @@ void ToLightLanes::connect(std::size_t count, const WeightRule& rule, const Ligh
         const LightTriangleFront<Wide> triangle = front.load(l);
         const LightTriangleSample<Wide> sample = triangle.sample(end.position, u.load(l));
         wi.store(l, sample.wi);
-        distance.store(l, sample.distance);
-        cos_light.store(l, sample.cos_light);
         store(l, end.origin,
               connect_to_triangle(rule, end, triangle, sample, radiance.load(l), probability.load(l),
                                   choice_ratio.load(l), aim));

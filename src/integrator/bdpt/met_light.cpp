@@ -20,7 +20,7 @@ void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hit
     parts_.lamps.note(parts_.job.samples, rays, hits, parts_.counters);
 }
 
-void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
+void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySums& sums,
                    const AovSet::Source& source) {
     const BdptJob& job = parts_.job;
     PathWords& words = parts_.eye.vertices().words();
@@ -32,8 +32,6 @@ void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySu
     parts_.found.add(state.slot,
                      state.throughput * light * job.wavelength_weight(state.slot, state.is_dispersed) * share,
                      kind_of_light_met_by(state), shares_);
-    if (parts_.observed.are_seen() && state.index > kDirectlySeen)
-        parts_.observed.show(job, 0, share, end, state.last_vertex);
 }
 
 void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
@@ -56,21 +54,14 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
                                arrived);
     else if (state.is_direct && light != kNone)
         sums = sums_at_seen_emitter(parts_.job.mis, light, arrived);
-    add(state, emitted, sums,
-        {.light = light,
-         .triangle = point.triangle,
-         .position = point.position,
-         .direction = -direction,
-         .cos_light = cos_light,
-         .is_reached_directly = state.is_direct},
-        parts_.eye.vertices().words().surface_source(point));
+    add(state, emitted, sums, parts_.eye.vertices().words().surface_source(point));
 }
 
-void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
+void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point) {
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
     if (state.only_deltas && parts_.job.lengths.is_long_enough(state.edges))
         add(state, parts_.job.world().materials().unlit_color(point), {},
-            {.position = point.position, .direction = -direction}, parts_.eye.vertices().words().surface_source(point));
+            parts_.eye.vertices().words().surface_source(point));
 }
 
 void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
@@ -85,8 +76,7 @@ void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
         if (light != world.environment().light() && is_black(radiance)) continue;
         StrategySums sums;
         if (!is_direct) sums = sums_from_afar(parts_.job.mis, state.from, light, direction, state.departing);
-        add(state, radiance, sums, {.light = light, .direction = -direction, .is_reached_directly = state.is_direct},
-            parts_.eye.vertices().words().light_source(world, light));
+        add(state, radiance, sums, parts_.eye.vertices().words().light_source(world, light));
     }
 }
 

@@ -21,7 +21,6 @@ struct SubpathState {
     DepartingDensities departing;
     WordRange words;
     std::uint32_t slot = 0;
-    std::uint32_t last_vertex = PathVertex::kNoVertex;
     int index = 1;  ///< index of the vertex to come
     int edges = 1;  ///< edges of the path when its ray has hit; media, panes and hidden boundaries add none
     bool is_dispersed = false;

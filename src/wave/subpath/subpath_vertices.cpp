@@ -33,12 +33,10 @@ PathVertex& SubpathVertices::store(SubpathState& state) {
     vertex.throughput = state.throughput;
     vertex.words = state.words;
     vertex.slot = state.slot;
-    vertex.previous = state.last_vertex;
     vertex.index = state.index;
     vertex.is_dispersed = state.is_dispersed;
     vertex.is_reached_directly = state.is_direct;
     vertex.is_seen_directly = state.only_deltas;
-    state.last_vertex = static_cast<std::uint32_t>(vertices_.size() - 1);
     state.is_direct = true;
     return vertex;
 }

@@ -20,8 +20,7 @@ void find_light(LightFinder& finder, const SubpathState& state, const Ray& ray, 
     if (!hit.valid()) return finder.on_escape(state, ray.direction);
     if (path.point.material->emits && !(is_first && finder.finds_emission(hit)))
         finder.on_emitter(state, path.point, ray.direction, path.arrived);
-    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
-        finder.on_unlit(state, path.point, ray.direction);
+    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden)) finder.on_unlit(state, path.point);
 }
 
 }  // namespace
@@ -345,17 +344,14 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     Ray& ray = rays_[i];
     PathVertex& vertex = vertices_[path.vertex];
     const Scattering& scattering = *vertex.surface;
-    vertex.is_left_by_delta = sample.is_delta;
-    if (sample.is_delta) vertex.delta_reverse_ratio = sample.reverse_ratio;
     if (vertices_.words().are_followed())
         vertices_.follow_words(state,
                                surface_event(scattering, sample.wi, sample.is_delta, mode_of(end_), vertex.label));
     if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     const float cosine = abs_dot(sample.wi, point.geometric_normal);
-    state.departing = sample.is_delta
-                          ? depart_by_delta(job.mis.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
-                          : depart(job.mis.raised, path.arrived, sample.pdf_solid_angle,
-                                   scattering.reverse_pdf_solid_angle(sample.wi, mode_of(end_)), cosine);
+    state.departing = sample.is_delta ? depart_by_delta(job.mis.raised, path.arrived, sample.reverse_ratio, cosine)
+                                      : depart(job.mis.raised, path.arrived, sample.pdf_solid_angle,
+                                               scattering.reverse_pdf_solid_angle(sample.wi, mode_of(end_)), cosine);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
@@ -364,11 +360,9 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
 
 void SubpathWave::pass_pane(std::size_t i, const ShadedSubpath& path) {
     SubpathState& state = states_[i];
-    const PathVertex& vertex = vertices_[path.vertex];
     const SurfacePoint& point = path.point;
     state.throughput *= path.sample.weight;
-    state.last_vertex = vertex.previous;
-    state.is_direct = vertex.is_reached_directly;
+    state.is_direct = vertices_[path.vertex].is_reached_directly;
     rays_[i].origin = offset_origin(point.position, point.geometric_normal, point.clearance, rays_[i].direction);
 }
 

@@ -61,7 +61,7 @@ class LightFinder {
     /// `arrived` is for the point as a vertex.
     virtual void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                             const SubpathDensities& arrived) = 0;
-    virtual void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) = 0;
+    virtual void on_unlit(const SubpathState& state, const SurfacePoint& point) = 0;
     virtual void on_escape(const SubpathState& state, const Vec3f& direction) = 0;
     /// Hears what all camera rays have met, before any other call tells of it.
     virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
@@ -73,10 +73,10 @@ class LightFinder {
 struct ShadedSubpath {
     SurfacePoint point;           ///< of a plain surface, its material only
     const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `MatteLanes`
-    std::size_t lane = 0;         ///< there
+    std::size_t lane = 0;         ///< lane of a plain surface in `MatteLanes`
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
-    std::uint32_t vertex = PathVertex::kNoVertex;  ///< that was stored for it
+    std::uint32_t vertex = PathVertex::kNoVertex;  ///< place of the vertex that was stored for it
     bool ends_here = false;  ///< it is as long as it may be, and can only go straight through a pane
     BsdfSample sample;       ///< unless plain
 };
@@ -87,7 +87,7 @@ class SubpathWave {
     SubpathWave(SubpathEnd end, bool makes_matte_ends)
         : end_(end), makes_matte_ends_(makes_matte_ends), vertices_(end, makes_matte_ends) {}
 
-    /// Traces the subpath of each sample. From `roulette_depth` edges on Russian roulette may end it. Vertices of
+    /// Traces the subpath of each sample. After `roulette_depth` rays Russian roulette may end it. Vertices of
     /// former calls are gone. `finder` may be null for lights. Rays are counted in `light`.
     void trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                RenderCounters& counters);
