@@ -121,7 +121,7 @@ void light_merged(const SubpathSample& sample, const SubpathVertex& eye, const P
         const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
         add(photon, {merged_light(eye, photon, scattered, 1.0, expected) *
                          sample.wavelength_weight(eye.is_dispersed || photon.is_dispersed),
-                     {.fewer_from_light = others_of_merge(sample.mis, eye, photon, scattered, expected)}});
+                     StrategySums::of_all_others(others_of_merge(sample.mis, eye, photon, scattered, expected))});
     });
 }
 

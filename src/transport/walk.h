@@ -36,7 +36,7 @@ struct EyeLight {
 /// that were taken there.
 struct LightSampleContext {
     LightReceiver receiver;
-    std::uint32_t samples = 0;     ///< that were taken of the light; 0 if none of them can find what the ray meets
+    std::uint32_t samples = 0;     ///< light samples at the vertex; 0 if none of them can find what the ray meets
     float pdf_solid_angle = 0.0f;  ///< 1/sr, of the ray's direction; not meaningful if there are no `samples`
     float passed = 0.0f;           ///< metres from the vertex to where the ray starts, over 0 behind panes
 };

@@ -30,7 +30,7 @@ struct SceneTraits {
 
     bool has_bodies = false;             ///< there is something that light can be in
     bool has_scattering_bodies = false;  ///< light scatters in some bodies
-    bool has_lights_in_media = false;    ///< some light, or a part of it, lies in a medium that scatters
+    bool has_lights_in_media = false;    ///< the middle of some light lies in a medium that scatters
 
     bool has_lights = false;          ///< some light sends out rays
     bool has_delta_lights = false;    ///< some light has no extent, so that no ray meets it by chance
