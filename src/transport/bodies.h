@@ -13,12 +13,19 @@ namespace etendue {
     return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
 }
 
-/// Returns what `ray`, which comes from within `interior` with `cone` around it, crosses at `point`, which it has hit
-/// at `hit`; nothing if the surface bounds no body. Where several surfaces touch, `point` becomes the one that bounds
-/// what fills the space.
+/// Names a ray that has hit a surface.
+struct ArrivingRay {
+    const Ray& ray;
+    const Interior& interior;  ///< the bodies that the ray is in
+    const Hit& hit;            ///< valid
+    RayCone cone{};            ///< around the ray
+};
+
+/// Returns what `arriving` crosses at `point`, which it has hit; nothing if the surface bounds no body. Where several
+/// surfaces touch, `point` becomes the one that bounds what fills the space.
 [[nodiscard]] inline std::optional<Crossing> crossing_at(const World& world, SurfacePoint& point,
-                                                         const Interior& interior, const Hit& hit, const Ray& ray,
-                                                         const RayCone& cone) {
+                                                         const ArrivingRay& arriving) {
+    const auto& [ray, interior, hit, cone] = arriving;
     if (!world.traits().has_bodies || !world.media().is_boundary(point)) return {};
     return hit.in_contact ? world.media().contact_crossing(point, interior, hit, ray, cone)
                           : world.media().crossing(point, interior);

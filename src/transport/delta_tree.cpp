@@ -53,7 +53,7 @@ Vertex next_vertex(const World& world, DeltaBranch& branch) {
     const Hit hit = nearest_hit(world, path);
     if (!hit.valid()) return environment_vertex(path.ray.direction);
     path.throughput *= transmittance(world, path.interior, hit.t);
-    return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm,
+    return surface_vertex(world, {path.ray, path.interior, hit, path.cone}, path.wavelength_nm,
                           branch.numbers.pair(kBranchWavelength).x);
 }
 

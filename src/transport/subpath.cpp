@@ -144,9 +144,9 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;
         }
+        const ArrivingRay arriving{subpath.ray, subpath.interior, hit};
         const Vec2f u_medium = sample.pair(subpath.end, bounce, SubpathDimension::Medium);
-        if (const auto vertex =
-                medium_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, subpath.throughput, u_medium)) {
+        if (const auto vertex = medium_vertex(world, arriving, subpath.throughput, u_medium)) {
             if (is_among_others) subpath.throughput *= chance_beyond(world, subpath.ray, vertex->position);
             const SubpathDensities densities = densities_at(sample, subpath, vertex->position, 1.0f);
             vertices.push_back(make_vertex(subpath, *vertex, densities, subpath.edges));
@@ -156,8 +156,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             break;
         } else {
             const float nanometres = subpath.is_dispersed ? sample.wavelength().nm : 0.0f;
-            const Vertex surface = surface_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, nanometres,
-                                                  sample.wavelength_number());
+            const Vertex surface = surface_vertex(world, arriving, nanometres, sample.wavelength_number());
             const float cosine = abs_dot(subpath.ray.direction, surface.surface.geometric_normal);
             const SubpathDensities densities = densities_at(sample, subpath, surface.position, cosine);
             if (arrive) arrive(subpath, surface, densities);

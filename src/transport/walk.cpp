@@ -56,9 +56,9 @@ Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
     const Hit hit = nearest_hit(world, path);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
     if (!hit.valid()) return environment_vertex(path.ray.direction);
-    if (const auto vertex = medium_vertex(world, path.ray, path.cone, path.interior, hit, path.throughput, u.medium))
-        return *vertex;
-    return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm, u.wavelength);
+    const ArrivingRay arriving{path.ray, path.interior, hit, path.cone};
+    if (const auto vertex = medium_vertex(world, arriving, path.throughput, u.medium)) return *vertex;
+    return surface_vertex(world, arriving, path.wavelength_nm, u.wavelength);
 }
 
 bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,

@@ -40,7 +40,7 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
     SurfacePoint& point = block_.singles[k].point;
     if (world.traits().has_bodies)
         block_.singles[k].crossing =
-            crossing_at(world, point, paths_.interiors[i], paths_.hits[i], paths_.ray(i), paths_.cone(i));
+            crossing_at(world, point, {paths_.ray(i), paths_.interiors[i], paths_.hits[i], paths_.cone(i)});
     if (point.material->is_pane) block_.panes[k] = {paths_.receiver(i), paths_.metres_passed(i) + paths_.hits[i].t};
     block_.on_emitter.add_if(point.material->emits, k);
     if (block_.singles[k].crossing && block_.singles[k].crossing->is_hidden) {

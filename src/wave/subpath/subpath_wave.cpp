@@ -235,8 +235,7 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
     }
     make_in_place(path.point, [&] { return world.geometry().surface_point(hits_[i], rays_[i], RayCone{}); });
     path.crossing.reset();
-    if (world.traits().has_bodies)
-        path.crossing = crossing_at(world, path.point, interiors_[i], hits_[i], rays_[i], RayCone{});
+    if (world.traits().has_bodies) path.crossing = crossing_at(world, path.point, {rays_[i], interiors_[i], hits_[i]});
     return true;
 }
 
