@@ -25,9 +25,10 @@ namespace etendue {
 /// Traces and connects the subpaths of many samples.
 class BdptWave final : public IntegratorScratch {
   public:
-    /// Samples in a wave. A vertex takes 316 bytes, its MatteEnd included, and 248 more for a lobe that was evaluated
-    /// there: the ten or so of a sample stay in a cache of 2 MiB until they are connected.
+    /// Bounds the samples of a wave, so that their ten or so vertices each, with 248 bytes more for a lobe that was
+    /// evaluated there, stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
+    static_assert(sizeof(PathVertex) + sizeof(MatteEnd) <= 320);
 
     [[nodiscard]] std::size_t bytes() const override;
 
@@ -80,6 +81,8 @@ class BdptWave final : public IntegratorScratch {
         const MatteEnd* light_end;
         float scale;
     };
+    /// Chooses lights for those of eye vertices [first, last) whose connections to them are wanted.
+    void choose_lights(const BdptJob& job, std::size_t first, std::size_t last);
     /// Connects eye vertices [first, last) to points on lights that are sampled for them: s = 1.
     void connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last);
     /// Merges eye vertices with the photons of the job.

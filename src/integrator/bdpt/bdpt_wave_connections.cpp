@@ -19,9 +19,7 @@ constexpr std::uint32_t kCacheDimension = 3u << 29;
 
 }  // namespace
 
-void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last) {
-    const World& world = job.world();
-    WaveProfile* const profile = job.job.profile;
+void BdptWave::choose_lights(const BdptJob& job, std::size_t first, std::size_t last) {
     receivers_.clear();
     choosing_.clear();
     lit_.clear();
@@ -34,7 +32,13 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         lit_.push_back(v);
     }
     choices_.resize(lit_.size());
-    world.lights().choose(receivers_, choosing_, choices_);
+    job.world().lights().choose(receivers_, choosing_, choices_);
+}
+
+void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last) {
+    const World& world = job.world();
+    WaveProfile* const profile = job.job.profile;
+    choose_lights(job, first, last);
     std::array<const MeshLight*, kBlockLanes> meshes;
     std::array<Vec3f, kBlockLanes> points;
     std::array<Vec2f, kBlockLanes> u_triangle;

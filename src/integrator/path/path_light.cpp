@@ -59,6 +59,27 @@ LightReceiver PathLight::make_receiver(std::size_t k) const {
 
 void PathLight::sample(const PathContext& context, const LaneList& paths, std::uint32_t round) {
     if (paths.empty()) return;
+    LightChoices chosen;
+    choose_lights(context, paths, round, chosen);
+    if (!chosen.by_mesh.empty()) sample_meshes(paths, chosen);
+    if (!chosen.by_environment.empty()) sample_environment(context.world, paths, chosen);
+    for (const std::size_t place : chosen.singly) {
+        const std::size_t k = paths[place];
+        make_in_place(block_.lights[k], [&] {
+            return context.world.lights().sample(chosen.choices[place], block_.lanes.position[k],
+                                                 block_.light_numbers(k));
+        });
+    }
+    // What is where those who ask next do not look for it.
+    for (const std::size_t place : chosen.by_mesh)
+        if (const std::size_t k = paths[place]; !block_.paths[k].is_wide) take_from_lanes(k);
+    for (const LaneList* list : {&chosen.by_environment, &chosen.singly})
+        for (const std::size_t place : *list)
+            if (const std::size_t k = paths[place]; block_.paths[k].is_wide) put_into_lanes(k);
+}
+
+void PathLight::choose_lights(const PathContext& context, const LaneList& paths, std::uint32_t round,
+                              LightChoices& chosen) {
     const World& world = context.world;
     const std::size_t count = paths.size();
     std::array<Vec2f, kBlockLanes> u;
@@ -70,67 +91,56 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
         }
         u[place] = block_.light_choice[k];
     }
-    std::array<LightTree::Choice, kBlockLanes> choices;
     world.lights().choose(std::span(receivers_).first(count), std::span(u).first(count),
-                          std::span(choices).first(count));
+                          std::span(chosen.choices).first(count));
     if (context.settings.light_samples > 1)
         for (std::size_t place = 0; place < count; ++place)
-            share_estimate(choices[place],
+            share_estimate(chosen.choices[place],
                            paths_.light_samples(context, block_.first + paths[place], path_history::kOnlyDeltas));
-    // Places among the paths, by how their lights are sampled.
-    LaneList by_mesh;
-    LaneList by_environment;
-    LaneList singly;
-    std::array<const MeshLight*, kBlockLanes> meshes;
-    std::array<Vec3f, kBlockLanes> points;
     for (std::size_t place = 0; place < count; ++place) {
-        const std::size_t k = paths[place];
-        const std::uint32_t light = block_.paths[k].light = choices[place].light;
-        meshes[place] = world.lights().even_mesh(light);
-        points[place] = block_.lanes.position[k];
-        u[place] = block_.light_triangle[k];
-        const bool is_mesh = meshes[place] != nullptr;
+        const std::uint32_t light = block_.paths[paths[place]].light = chosen.choices[place].light;
+        chosen.meshes[place] = world.lights().even_mesh(light);
+        const bool is_mesh = chosen.meshes[place] != nullptr;
         const bool is_environment = light == world.environment().light();
-        by_mesh.add_if(is_mesh, place);
-        by_environment.add_if(is_environment, place);
-        singly.add_if(!is_mesh && !is_environment, place);
+        chosen.by_mesh.add_if(is_mesh, place);
+        chosen.by_environment.add_if(is_environment, place);
+        chosen.singly.add_if(!is_mesh && !is_environment, place);
+    }
+}
+
+void PathLight::sample_meshes(const LaneList& paths, const LightChoices& chosen) {
+    const std::size_t count = paths.size();
+    std::array<Vec3f, kBlockLanes> points;
+    std::array<Vec2f, kBlockLanes> u;
+    for (std::size_t place = 0; place < count; ++place) {
+        points[place] = block_.lanes.position[paths[place]];
+        u[place] = block_.light_triangle[paths[place]];
     }
     std::array<MeshLight::TriangleChoice, kBlockLanes> triangles;
-    MeshLight::choose_triangles(std::span(meshes).first(count), points, u, triangles);
-    for (const std::size_t place : by_mesh) {
+    MeshLight::choose_triangles(std::span(chosen.meshes).first(count), points, u, triangles);
+    for (const std::size_t place : chosen.by_mesh) {
         const std::size_t k = paths[place];
-        const MeshLight& mesh = *meshes[place];
+        const MeshLight& mesh = *chosen.meshes[place];
         block_.lanes.front.set(k, mesh, triangles[place]);
-        block_.lanes.expected_samples.set(k, choices[place].probability);
+        block_.lanes.expected_samples.set(k, chosen.choices[place].probability);
         block_.lanes.light_radiance.set(k, mesh.radiance());
     }
-    if (!by_mesh.empty()) {
-        for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
-            block_.lanes.u_light.store(l, block_.light_direction.load(l));
-        block_.lanes.sample_mesh_lights(block_.count);
+    for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
+        block_.lanes.u_light.store(l, block_.light_direction.load(l));
+    block_.lanes.sample_mesh_lights(block_.count);
+}
+
+void PathLight::sample_environment(const World& world, const LaneList& paths, const LightChoices& chosen) {
+    const std::size_t count = chosen.by_environment.size();
+    std::array<Vec2f, kBlockLanes> u;
+    for (std::size_t i = 0; i < count; ++i) u[i] = block_.light_direction[paths[chosen.by_environment[i]]];
+    world.environment().sample_light(std::span(u).first(count), std::span(environment_samples_).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const LightTree::Choice& choice = chosen.choices[chosen.by_environment[i]];
+        ChosenLight& light = block_.lights[paths[chosen.by_environment[i]]];
+        light = {environment_samples_[i], choice.probability, choice.light};
+        light.sample.pdf_solid_angle *= choice.probability;
     }
-    if (!by_environment.empty()) {
-        const std::size_t samples = by_environment.size();
-        for (std::size_t i = 0; i < samples; ++i) u[i] = block_.light_direction[paths[by_environment[i]]];
-        world.environment().sample_light(std::span(u).first(samples), std::span(environment_samples_).first(samples));
-        for (std::size_t i = 0; i < samples; ++i) {
-            const LightTree::Choice& choice = choices[by_environment[i]];
-            ChosenLight& light = block_.lights[paths[by_environment[i]]];
-            light = {environment_samples_[i], choice.probability, choice.light};
-            light.sample.pdf_solid_angle *= choice.probability;
-        }
-    }
-    for (const std::size_t place : singly) {
-        const std::size_t k = paths[place];
-        make_in_place(block_.lights[k],
-                      [&] { return world.lights().sample(choices[place], points[place], block_.light_numbers(k)); });
-    }
-    // What is where those who ask next do not look for it.
-    for (const std::size_t place : by_mesh)
-        if (const std::size_t k = paths[place]; !block_.paths[k].is_wide) take_from_lanes(k);
-    for (const LaneList* list : {&by_environment, &singly})
-        for (const std::size_t place : *list)
-            if (const std::size_t k = paths[place]; block_.paths[k].is_wide) put_into_lanes(k);
 }
 
 void PathLight::take_from_lanes(std::size_t k) {

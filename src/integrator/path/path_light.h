@@ -63,6 +63,19 @@ class PathLight {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    /// Says which lights some paths sample; those paths are known by their places among themselves.
+    struct LightChoices {
+        std::array<LightTree::Choice, kBlockLanes> choices;
+        std::array<const MeshLight*, kBlockLanes> meshes;  ///< null where the light is no even mesh light
+        LaneList by_mesh, by_environment, singly;          ///< places, by how the light is sampled
+    };
+
+    /// Chooses a light for each of `paths`.
+    void choose_lights(const PathContext& context, const LaneList& paths, std::uint32_t round, LightChoices& chosen);
+    /// Samples the even mesh lights that are chosen for some of `paths`.
+    void sample_meshes(const LaneList& paths, const LightChoices& chosen);
+    /// Samples the environment where it is chosen for some of `paths`.
+    void sample_environment(const World& world, const LaneList& paths, const LightChoices& chosen);
     /// Returns the weight of what path `i` has met of `light`, infinitely far away, whose samples pick its direction
     /// with this density.
     [[nodiscard]] float weight_from_afar(const PathContext& context, std::size_t i, std::uint32_t light,
