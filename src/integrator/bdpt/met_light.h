@@ -31,7 +31,9 @@ class MetLight final : public LightFinder {
     void on_unlit(const SubpathState& state, const SurfacePoint& point) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
-    [[nodiscard]] bool finds_emission(const Hit& first_hit) const override { return parts_.lamps.finds(first_hit); }
+    [[nodiscard]] bool finds_emission(const Hit& first_hit) const override {
+        return parts_.lamps.finds_emission(first_hit);
+    }
 
   private:
     /// Adds `light` to the sample of `state`, by its weight.

@@ -225,7 +225,7 @@ void PathLight::add_emission(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     const SurfacePoint& point = block_.singles[k].point;
     if (!context.settings.lengths.is_long_enough(paths_.edges(i))) return;
-    if (context.rays == 1 && lamps_.finds(paths_.hits[i])) return;
+    if (context.rays == 1 && lamps_.finds_emission(paths_.hits[i])) return;
     if (paths_.is(path_history::kOnlyDeltas, i) && paths_.edges(i) > 1 &&
         lamps_.finds_image(paths_.samples[paths_.slot[i]]))
         return;
