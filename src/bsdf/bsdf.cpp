@@ -1,7 +1,5 @@
 #include "bsdf/bsdf.h"
 
-#include "sampling/sobol.h"
-
 namespace etendue {
 
 namespace {
@@ -33,17 +31,6 @@ BsdfParts evaluate_bsdf_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi
     if (std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf))
         return {value.f_cos, {}, value.pdf_solid_angle};
     return {{}, value.f_cos, value.pdf_solid_angle};
-}
-
-Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count, std::uint32_t seed) {
-    Rgb sum;
-    for (int i = 0; i < count; ++i) {
-        const auto index = static_cast<std::uint32_t>(i);
-        const float u_lobe = owen_sobol_2d(index, hash_combine(seed, 0)).x;
-        sum += sample_bsdf(bsdf, wo, u_lobe, owen_sobol_2d(index, hash_combine(seed, 1)), TransportMode::Importance)
-                   .weight;
-    }
-    return sum / static_cast<float>(count);
 }
 
 }  // namespace etendue

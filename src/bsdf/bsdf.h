@@ -76,8 +76,4 @@ using Bsdf = std::variant<ClearCoat, Diffuse, DielectricBody, LayeredSurface, Me
     return std::visit([](const auto& lobe) { return lobe.is_diffuse(); }, bsdf);
 }
 
-/// Share of the light from `wo` that is scattered, by the lobe's own samples: an unbiased estimate from `count` of
-/// them. Different seeds give independent estimates.
-[[nodiscard]] Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count, std::uint32_t seed);
-
 }  // namespace etendue

@@ -46,11 +46,6 @@ struct BasicGgx {
     /// Height-correlated masking and shadowing (Heitz, equation 99).
     [[nodiscard]] T g2(const Vec& wo, const Vec& wi) const { return 1.0f / (1.0f + lambda(wo) + lambda(wi)); }
 
-    /// Density of the normals visible from `wo` (wo.z > 0), per solid angle of the normal (Heitz, equation 2).
-    [[nodiscard]] T visible_normal_pdf(const Vec& wo, const Vec& h) const {
-        return g1(wo) * d(h) * max(T(0.0f), dot(wo, h)) / wo.z;
-    }
-
     /// A normal visible from `wo` (wo.z > 0).
     [[nodiscard]] Vec sample_visible_normal(const Vec& wo, const Imath::Vec2<T>& u) const {
         const Vec stretched = normalize(Vec(wo.x * alpha_x, wo.y * alpha_y, wo.z));

@@ -9,6 +9,17 @@ namespace etendue {
 namespace {
 
 template <typename T>
+MetallicRoughnessLayers<T> plain_layers_of(const PlainMetallicRoughness<T>& lobe, const Imath::Vec3<T>& wo) {
+    return {BasicGgx<T>::isotropic(lobe.alpha),
+            false,
+            {lobe.f0, lobe.f90, {}},
+            {lobe.base, T(1.0f), {}},
+            lobe.metallic,
+            {lobe.base * (1.0f - lobe.metallic), {}, {}},
+            wo};
+}
+
+template <typename T>
 BasicBsdfValue<T> evaluate_lanes(const MetallicRoughnessLayers<T>& layers, const LeaningNormal<T>& leaning,
                                  const Imath::Vec3<T>& wo, const Imath::Vec3<T>& wi) {
     const BasicBsdfValue<T> value =
@@ -34,10 +45,15 @@ BasicBsdfSample<T> sample_lanes(const MetallicRoughnessLayers<T>& layers, const 
 }  // namespace
 
 template <typename T>
+BasicBsdfValue<T> PlainMetallicRoughness<T>::evaluate(const LeaningNormal<T>& leaning, const Vec& wo,
+                                                      const Vec& wi) const {
+    return evaluate_lanes(plain_layers_of(*this, wo), leaning, wo, wi);
+}
+
+template <typename T>
 auto PlainMetallicRoughness<T>::evaluate_and_sample(const LeaningNormal<T>& leaning, const Vec& wo, const Vec& wi,
                                                     T u_lobe, const Imath::Vec2<T>& u) const -> ValueAndSample {
-    const MetallicRoughnessLayers<T> layers(BasicGgx<T>::isotropic(alpha), false, {f0, f90, {}}, {base, T(1.0f), {}},
-                                            metallic, {base * (1.0f - metallic), {}, {}}, wo);
+    const MetallicRoughnessLayers<T> layers = plain_layers_of(*this, wo);
     return {evaluate_lanes(layers, leaning, wo, wi), sample_lanes(layers, leaning, wo, u_lobe, u)};
 }
 

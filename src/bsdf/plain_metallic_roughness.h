@@ -18,12 +18,15 @@ struct PlainMetallicRoughness {
     BasicRgb<T> f0;
     T f90;
 
+    /// Evaluates towards `wi` for a walk from the eye. Zero where wo or the direction is not above the surface. Of
+    /// float and Wide.
+    [[nodiscard]] BasicBsdfValue<T> evaluate(const LeaningNormal<T>& leaning, const Vec& wo, const Vec& wi) const;
+
     struct ValueAndSample {
         BasicBsdfValue<T> value;
         BasicBsdfSample<T> sample;
     };
-    /// Evaluates towards `wi` and samples by `u_lobe` and `u` for a walk from the eye, which share what depends on wo
-    /// alone. Zero where wo or the direction is not above the surface. Of float and Wide.
+    /// Evaluates as `evaluate` does and samples by `u_lobe` and `u`, which share what depends on wo alone.
     [[nodiscard]] ValueAndSample evaluate_and_sample(const LeaningNormal<T>& leaning, const Vec& wo, const Vec& wi,
                                                      T u_lobe, const Imath::Vec2<T>& u) const;
 };

@@ -21,71 +21,24 @@ Vec2f to_film(const auto& camera, Vec2f plane) {
             0.5f - 0.5f * (plane.y - camera.center.y) / camera.half_height};
 }
 
-const CameraPose& pose_of(const PinholeCamera& c) {
-    return c.pose;
-}
-const CameraPose& pose_of(const ThinLensCamera& c) {
-    return c.pinhole.pose;
-}
-const CameraPose& pose_of(const OrthographicCamera& c) {
-    return c.pose;
-}
-const CameraPose& pose_of(const EquirectangularCamera& c) {
-    return c.pose;
-}
-const CameraPose& pose_of(const FisheyeCamera& c) {
-    return c.pose;
-}
-
-ClipRange& clip_of(PinholeCamera& c) {
-    return c.clip;
-}
-ClipRange& clip_of(ThinLensCamera& c) {
-    return c.pinhole.clip;
-}
-ClipRange& clip_of(OrthographicCamera& c) {
-    return c.clip;
-}
-ClipRange& clip_of(EquirectangularCamera& c) {
-    return c.clip;
-}
-ClipRange& clip_of(FisheyeCamera& c) {
-    return c.clip;
-}
-const ClipRange& clip_of(const PinholeCamera& c) {
-    return c.clip;
-}
-const ClipRange& clip_of(const ThinLensCamera& c) {
-    return c.pinhole.clip;
-}
-const ClipRange& clip_of(const OrthographicCamera& c) {
-    return c.clip;
-}
-const ClipRange& clip_of(const EquirectangularCamera& c) {
-    return c.clip;
-}
-const ClipRange& clip_of(const FisheyeCamera& c) {
-    return c.clip;
-}
-
-bool is_panoramic(const auto&) {
-    return false;
-}
-bool is_panoramic(const EquirectangularCamera&) {
-    return true;
-}
-bool is_panoramic(const FisheyeCamera&) {
-    return true;
+/// Returns what a camera has its pose and its clipping from: of a thin lens, its pinhole.
+auto& body_of(auto& camera) {
+    if constexpr (requires { camera.pinhole; })
+        return camera.pinhole;
+    else
+        return camera;
 }
 
 /// Returns how much deeper a metre along `direction` leads.
 float depth_rate(const auto& camera, const Vec3f& direction) {
-    return is_panoramic(camera) ? 1.0f : dot(direction, pose_of(camera).forward);
+    const auto& body = body_of(camera);
+    return body.kPanoramic ? 1.0f : dot(direction, body.pose.forward);
 }
 
 float depth_of(const auto& camera, const Vec3f& point) {
-    const Vec3f to_point = point - pose_of(camera).position;
-    return is_panoramic(camera) ? length(to_point) : dot(to_point, pose_of(camera).forward);
+    const auto& body = body_of(camera);
+    const Vec3f to_point = point - body.pose.position;
+    return body.kPanoramic ? length(to_point) : dot(to_point, body.pose.forward);
 }
 
 /// Returns `v` along the axes of a pose: right, up and forward.
@@ -127,35 +80,19 @@ float fisheye_density(const FisheyeCamera& camera, float angle) {
 /// The ray of `generate_ray`, from where the camera begins to show surfaces.
 Ray clipped_ray(const auto& camera, Vec2f film, Vec2f lens) {
     Ray ray = camera.generate_ray(film, lens);
-    if (const float start = clip_of(camera).start; start > 0.0f)
+    if (const float start = body_of(camera).clip.start; start > 0.0f)
         ray.origin += ray.direction * (start / depth_rate(camera, ray.direction));
     return ray;
 }
 
 CameraConnection clipped_connection(const auto& camera, const Vec3f& point, Vec2f lens) {
     CameraConnection connection = camera.connect(point, lens);
-    const ClipRange& clip = clip_of(camera);
+    const ClipRange& clip = body_of(camera).clip;
     if (!(connection.importance_area > 0.0f) || (clip.start == 0.0f && std::isinf(clip.end))) return connection;
     const float depth = depth_of(camera, point);
     if (!(depth > clip.start && depth <= clip.end)) return {};
     connection.lens += (point - connection.lens) * (clip.start / depth);
     return connection;
-}
-
-void set_pose(PinholeCamera& c, const CameraPose& pose) {
-    c.pose = pose;
-}
-void set_pose(ThinLensCamera& c, const CameraPose& pose) {
-    c.pinhole.pose = pose;
-}
-void set_pose(OrthographicCamera& c, const CameraPose& pose) {
-    c.pose = pose;
-}
-void set_pose(EquirectangularCamera& c, const CameraPose& pose) {
-    c.pose = pose;
-}
-void set_pose(FisheyeCamera& c, const CameraPose& pose) {
-    c.pose = pose;
 }
 
 std::optional<Mat4f> projection(const PinholeCamera& c) {
@@ -224,15 +161,6 @@ CameraConnection PinholeCamera::connect(const Vec3f& point, Vec2f) const {
             .importance_area = distance / (4.0f * half_width * half_height * depth * depth * depth)};
 }
 
-float PinholeCamera::pdf_solid_angle(const Vec3f& direction) const {
-    const float cos_theta = dot(direction, pose.forward);
-    if (cos_theta <= 0.0f) return 0.0f;
-    const float x = dot(direction, pose.right) / cos_theta - center.x;
-    const float y = dot(direction, pose.up) / cos_theta - center.y;
-    if (std::abs(x) > half_width || std::abs(y) > half_height) return 0.0f;
-    return 1.0f / (4.0f * half_width * half_height * cos_theta * cos_theta * cos_theta);
-}
-
 Vec2f Aperture::point(Vec2f u) const {
     if (blades == 0) {
         const Vec2f p = square_to_disk(u);
@@ -267,10 +195,6 @@ CameraConnection ThinLensCamera::connect(const Vec3f& point, Vec2f lens) const {
     connection.film +=
         Vec2f(0.5f * l.x / pinhole.half_width, -0.5f * l.y / pinhole.half_height) * (1.0f / focus_distance);
     return connection;
-}
-
-float ThinLensCamera::pdf_solid_angle(const Vec3f& direction) const {
-    return pinhole.pdf_solid_angle(direction);
 }
 
 Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
@@ -311,11 +235,6 @@ CameraConnection EquirectangularCamera::connect(const Vec3f& point, Vec2f) const
             .importance_area = equirectangular_density(level / std::sqrt(squared)) / squared};
 }
 
-float EquirectangularCamera::pdf_solid_angle(const Vec3f& direction) const {
-    const Vec3f v = to_axes(pose, direction);
-    return equirectangular_density(std::hypot(v.x, v.z));
-}
-
 Ray FisheyeCamera::generate_ray(Vec2f film, Vec2f) const {
     const Vec2f p = to_plane(*this, film);
     const float radius = std::hypot(p.x, p.y);
@@ -344,13 +263,6 @@ CameraConnection FisheyeCamera::connect(const Vec3f& point, Vec2f) const {
             .importance_area = fisheye_density(*this, angle) / squared};
 }
 
-float FisheyeCamera::pdf_solid_angle(const Vec3f& direction) const {
-    const CameraConnection connection = connect(pose.position + direction, {});
-    const Vec2f& film = connection.film;
-    const bool is_inside = film.x >= 0.0f && film.x <= 1.0f && film.y >= 0.0f && film.y <= 1.0f;
-    return is_inside ? connection.importance_area : 0.0f;
-}
-
 // A pixel's solid angle is its area on the image plane times cos³; the plane's area is the reciprocal of that density.
 RayCone PinholeCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
     const float cos_theta = std::max(0.0f, dot(direction, pose.forward));
@@ -367,7 +279,8 @@ RayCone OrthographicCamera::pixel_cone(const Vec3f&, float pixel_area) const {
 }
 
 RayCone EquirectangularCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
-    return {0.0f, std::sqrt(pixel_area / pdf_solid_angle(direction))};
+    const Vec3f v = to_axes(pose, direction);
+    return {0.0f, std::sqrt(pixel_area / equirectangular_density(std::hypot(v.x, v.z)))};
 }
 
 RayCone FisheyeCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
@@ -376,7 +289,7 @@ RayCone FisheyeCamera::pixel_cone(const Vec3f& direction, float pixel_area) cons
 }
 
 bool is_panoramic(const Camera& camera) {
-    return std::visit([](const auto& c) { return is_panoramic(c); }, camera);
+    return std::visit([](const auto& c) { return body_of(c).kPanoramic; }, camera);
 }
 
 bool film_wraps(const Camera& camera) {
@@ -388,16 +301,16 @@ bool has_blind_film(const Camera& camera) {
 }
 
 const CameraPose& pose_of(const Camera& camera) {
-    return std::visit([](const auto& c) -> const CameraPose& { return pose_of(c); }, camera);
+    return std::visit([](const auto& c) -> const CameraPose& { return body_of(c).pose; }, camera);
 }
 
 const ClipRange& clip_of(const Camera& camera) {
-    return std::visit([](const auto& c) -> const ClipRange& { return clip_of(c); }, camera);
+    return std::visit([](const auto& c) -> const ClipRange& { return body_of(c).clip; }, camera);
 }
 
 Camera without_far_clip(const Camera& camera) {
     Camera result = camera;
-    std::visit([](auto& c) { clip_of(c).end = ClipRange{}.end; }, result);
+    std::visit([](auto& c) { body_of(c).clip.end = ClipRange{}.end; }, result);
     return result;
 }
 
@@ -411,7 +324,7 @@ bool has_lens(const Camera& camera) {
 
 Camera with_pose(const Camera& camera, const CameraPose& pose) {
     Camera result = camera;
-    std::visit([&](auto& c) { set_pose(c, pose); }, result);
+    std::visit([&](auto& c) { body_of(c).pose = pose; }, result);
     return result;
 }
 
@@ -431,21 +344,17 @@ CameraConnection connect(const Camera& camera, const Vec3f& point, Vec2f lens) {
     return std::visit([&](const auto& c) { return clipped_connection(c, point, lens); }, camera);
 }
 
-float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction) {
-    return std::visit([&](const auto& c) { return c.pdf_solid_angle(direction); }, camera);
-}
-
 RayCone pixel_cone(const Camera& camera, const Vec3f& direction, float pixel_area) {
     const auto cone_of = [&](const auto& c) {
         const RayCone cone = c.pixel_cone(direction, pixel_area);
-        const float start = clip_of(c).start;
+        const float start = body_of(c).clip.start;
         return start > 0.0f ? cone.at(start / depth_rate(c, direction)) : cone;
     };
     return std::visit(cone_of, camera);
 }
 
 Mat4f world_to_camera(const Camera& camera) {
-    const CameraPose& p = std::visit([](const auto& c) -> const CameraPose& { return pose_of(c); }, camera);
+    const CameraPose& p = pose_of(camera);
     const Mat4f to_world(p.right.x, p.right.y, p.right.z, 0, p.up.x, p.up.y, p.up.z, 0, -p.forward.x, -p.forward.y,
                          -p.forward.z, 0, p.position.x, p.position.y, p.position.z, 1);
     return to_world.inverse();

@@ -1,9 +1,9 @@
 // Cameras: from a point on the film and one on the lens to a ray.
 //
-// To add another: a struct with `generate_ray`, `connect`, `pdf_solid_angle`, `pixel_cone` and `has_lens`, its place in
-// the variant, its pose, its clipping and its projection in camera.cpp, one case in world/compile_camera.cpp, and its
-// row in tests/camera. What lies nearer or farther than a camera shows is cut off for all of them alike, by the
-// functions on `Camera`.
+// To add another: a struct with `pose`, `clip`, `kPanoramic`, `generate_ray`, `connect`, `pixel_cone` and `has_lens`,
+// its place in the variant, its projection in camera.cpp, one case in world/compile_camera.cpp, and its row in
+// tests/camera. What lies nearer or farther than a camera shows is cut off for all of them alike, by the functions on
+// `Camera`.
 //
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once
@@ -51,6 +51,8 @@ struct CameraConnection {
 
 /// Perspective through a point.
 struct PinholeCamera {
+    static constexpr bool kPanoramic = false;  ///< true if no plane film shows what the camera sees
+
     CameraPose pose;
     float half_width = 0.5f;   ///< of the image plane at distance 1
     float half_height = 0.5f;  ///< of the image plane at distance 1
@@ -59,8 +61,6 @@ struct PinholeCamera {
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
-    /// Density per solid angle of the ray directions for uniform film points: 1 / (A cos³); 0 outside the image.
-    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
@@ -85,8 +85,6 @@ struct ThinLensCamera {
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
-    /// Density per solid angle of the directions through the centre of the lens.
-    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     /// Returns the cone of the pinhole: what the lens blurs, its samples blur.
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return true; }
@@ -94,6 +92,8 @@ struct ThinLensCamera {
 
 /// Parallel rays.
 struct OrthographicCamera {
+    static constexpr bool kPanoramic = false;  ///< true if no plane film shows what the camera sees
+
     CameraPose pose;
     float half_width = 1.0f;   ///< metres
     float half_height = 1.0f;  ///< metres
@@ -102,21 +102,19 @@ struct OrthographicCamera {
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
-    /// All rays have one direction: a delta, so 0.
-    [[nodiscard]] float pdf_solid_angle(const Vec3f&) const { return 0.0f; }
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
 
 /// All directions from a point, by longitude and latitude; depths are distances. The film goes on beyond its edges.
 struct EquirectangularCamera {
+    static constexpr bool kPanoramic = true;  ///< true if no plane film shows what the camera sees
+
     CameraPose pose;  ///< `forward` is in the middle of the film
     ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
-    /// Returns the density per solid angle of the ray directions for uniform film points, 1 / (2 π² cos(latitude)).
-    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
@@ -130,6 +128,8 @@ enum class FisheyeMapping {
 /// Directions within an angle of the viewing direction, from a point, in a circle; depths are distances. Beyond the
 /// circle the film sees nothing.
 struct FisheyeCamera {
+    static constexpr bool kPanoramic = true;  ///< true if no plane film shows what the camera sees
+
     CameraPose pose;
     float half_width = 1.0f;        ///< of the film, in radii of the circle
     float half_height = 1.0f;       ///< of the film, in radii of the circle
@@ -141,9 +141,6 @@ struct FisheyeCamera {
     /// Returns a ray with nowhere to go, of t_max 0, for film points beyond the circle.
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
-    /// Returns the density per solid angle of the ray directions for uniform film points, those beyond the circle
-    /// included; 0 outside the image.
-    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
@@ -181,7 +178,6 @@ void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<
 /// lens points and times the radiance and the cosine of a surface, `importance_area` integrates over surfaces to what
 /// `generate_ray` averages over the film.
 [[nodiscard]] CameraConnection connect(const Camera& camera, const Vec3f& point, Vec2f lens);
-[[nodiscard]] float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction);
 
 /// The cone around a camera ray along `direction` that is as large as a pixel, which takes the share `pixel_area` of
 /// the film. Not divided by the samples per pixel: what a pixel shows does not depend on their number.

@@ -16,7 +16,8 @@
 
 namespace etendue {
 
-/// Is the number of paths of a block.
+/// Counts the paths of a block, which go from one stage of shading to the next together: what lies between the stages
+/// stays in the first-level cache.
 inline constexpr std::size_t kBlockLanes = 64;
 static_assert(kBlockLanes % Wide::kWidth == 0);
 

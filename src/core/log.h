@@ -16,10 +16,6 @@ void set_log_level(LogLevel level);
 void log_line(LogLevel level, std::string_view line);
 
 template <typename... Args>
-void log_debug(fmt::format_string<Args...> format, Args&&... args) {
-    log_line(LogLevel::Debug, fmt::format(format, std::forward<Args>(args)...));
-}
-template <typename... Args>
 void log_info(fmt::format_string<Args...> format, Args&&... args) {
     log_line(LogLevel::Info, fmt::format(format, std::forward<Args>(args)...));
 }

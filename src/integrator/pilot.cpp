@@ -72,7 +72,8 @@ class PilotFilm {
                 const double scale = 1.0 / (light * light + kLeastSquared);
                 for (std::size_t i = 0; i < kComparedCount; ++i) {
                     const double missed = pixel.sum.missed[i] / samples;
-                    // Path tracing has its samples' light alone. What light subpaths bring is rare in each pixel.
+                    // All light of path tracing comes by its own samples; what light subpaths bring to the others is
+                    // rare in each pixel.
                     const auto& halves = i == 0 ? pixel.of_all : pixel.of_samples;
                     const double squared_mean = (halves[0] / of_half) * (halves[1] / of_half);
                     sums[i] +=

@@ -31,8 +31,9 @@ std::unique_ptr<const Integrator> make_naive(IntegratorSettings settings) {
     return std::make_unique<PathIntegrator>(settings);
 }
 
-std::unique_ptr<const Integrator> make_vcm(const IntegratorSettings& settings) {
-    return std::make_unique<BdptIntegrator>(settings, nullptr, settings.merging);
+std::unique_ptr<const Integrator> make_bdpt(IntegratorSettings settings) {
+    settings.merging.at = MergeAt::Nothing;
+    return std::make_unique<BdptIntegrator>(settings);
 }
 
 constexpr std::string_view kLampImages = "/integrator/lamp_images";
@@ -67,11 +68,11 @@ constexpr IntegratorEntry kRegistry[] = {
      .own_settings = kOfLightPaths},
     {.name = "bdpt",
      .summary = "eye and light paths, connected in every way, combined by MIS",
-     .make = make<BdptIntegrator>,
+     .make = [](const IntegratorSettings& settings) { return make_bdpt(settings); },
      .own_settings = kOfStrategies},
     {.name = "vcm",
      .summary = "bdpt that merges subpaths where nothing connects them: caustics seen in mirrors and through glass",
-     .make = make_vcm,
+     .make = make<BdptIntegrator>,
      .own_settings = kOfMerging,
      .merges = true},
     {.name = "whitted",

@@ -32,7 +32,7 @@ class CountingTracer final : public SampleTracer {
         light_.count_ray(slot_);
         return occluded_one(world_, job_, RayKind::Shadow, ray, counters_);
     }
-    [[nodiscard]] bool finds_emission(const Hit& hit) const override { return lamps_.finds(hit); }
+    [[nodiscard]] bool finds_emission(const Hit& hit) const override { return lamps_.finds_emission(hit); }
 
   private:
     const World& world_;

@@ -39,8 +39,6 @@ class PathAutomaton {
     /// make_position_graph does.
     PathAutomaton(std::span<const PathExpression> expressions, const PathNames& names);
 
-    [[nodiscard]] std::size_t expression_count() const { return expression_count_; }
-
     /// Returns the label of the material with this index among the names: what the functions below call `label`.
     [[nodiscard]] std::uint16_t material_label(std::size_t index) const { return materials_.of(index); }
     /// Returns the label of the light with this index among the names.

@@ -93,12 +93,6 @@ void Distribution1D::fetch_pdf(float x) const {
     __builtin_prefetch(&cdf_[cell(x, size())]);
 }
 
-float Distribution1D::inverse(float x) const {
-    const std::size_t index = cell(x, size());
-    const float within = x * static_cast<float>(size()) - static_cast<float>(index);
-    return cdf_[index] + within * (cdf_[index + 1] - cdf_[index]);
-}
-
 Distribution2D::Distribution2D(std::span<const float> weights, int width, int height) {
     const auto row_size = static_cast<std::size_t>(width);
     std::vector<float> row_integrals;
@@ -141,10 +135,6 @@ void Distribution2D::sample(std::span<const Vec2f> u, std::span<Sample> samples)
 
 float Distribution2D::pdf(Vec2f position) const {
     return marginal_.pdf(position.y) * row(position.y).pdf(position.x);
-}
-
-Vec2f Distribution2D::inverse(Vec2f position) const {
-    return {row(position.y).inverse(position.x), marginal_.inverse(position.y)};
 }
 
 std::size_t Distribution2D::bytes() const {

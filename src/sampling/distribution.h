@@ -31,8 +31,6 @@ class Distribution1D {
     [[nodiscard]] float pdf(float x) const;
     /// Has what `pdf` reads fetched, unless it goes across two lines of the cache.
     void fetch_pdf(float x) const;
-    /// The u that `sample` maps to `x`.
-    [[nodiscard]] float inverse(float x) const;
     [[nodiscard]] std::size_t size() const { return size_; }
     /// Mean of the weights: the integral over [0,1) of the function that they describe.
     [[nodiscard]] double integral() const { return integral_; }
@@ -71,7 +69,6 @@ class Distribution2D {
     [[nodiscard]] float pdf(Vec2f position) const;
     /// Has most of what `pdf` reads fetched from memory.
     void fetch_pdf(Vec2f position) const { row(position.y).fetch_pdf(position.x); }
-    [[nodiscard]] Vec2f inverse(Vec2f position) const;
     [[nodiscard]] double integral() const { return marginal_.integral(); }
     [[nodiscard]] std::size_t bytes() const;
 

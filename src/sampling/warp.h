@@ -1,7 +1,7 @@
-// Warps of the unit square: each with its pdf and its inverse.
+// Warps of the unit square, with densities where these are asked for.
 //
 // Notation: `square_to_x(u)` maps u in [0,1)² to the domain x, `x_pdf(p)` is the density of the result in the measure
-// that the name states, `x_to_square(p)` is the inverse. Sources: Shirley and Chiu, "A Low Distortion Map Between Disk
+// that the name states. Sources: Shirley and Chiu, "A Low Distortion Map Between Disk
 // and Square" (JGT 2(3), 1997); pbrt, 4th edition, appendix A.5. Some are templates of their lane type, see
 // core/lane.h.
 #pragma once
@@ -27,30 +27,6 @@ template <typename T = float>
     const BasicSinCos<T> angle = sin_cos_octant((kPi / 4.0f) * quotient);
     return {r * select(flat, angle.cos, angle.sin), r * select(flat, angle.sin, angle.cos)};
 }
-[[nodiscard]] inline float disk_pdf_area(Vec2f p) {
-    return p.x * p.x + p.y * p.y <= 1.0f ? kInvPi : 0.0f;
-}
-[[nodiscard]] inline Vec2f disk_to_square(Vec2f p) {
-    const float r = std::sqrt(p.x * p.x + p.y * p.y);
-    float phi = std::atan2(p.y, p.x);
-    if (phi < -kPi / 4.0f) phi += 2.0f * kPi;
-    float a = 0.0f;
-    float b = 0.0f;
-    if (phi < kPi / 4.0f) {
-        a = r;
-        b = phi * a / (kPi / 4.0f);
-    } else if (phi < 3.0f * kPi / 4.0f) {
-        b = r;
-        a = -(phi - kPi / 2.0f) * b / (kPi / 4.0f);
-    } else if (phi < 5.0f * kPi / 4.0f) {
-        a = -r;
-        b = (phi - kPi) * a / (kPi / 4.0f);
-    } else {
-        b = -r;
-        a = -(phi - 3.0f * kPi / 2.0f) * b / (kPi / 4.0f);
-    }
-    return {(a + 1.0f) * 0.5f, (b + 1.0f) * 0.5f};
-}
 
 /// Maps the unit square to the regular polygon of so many corners, at least 3, on the unit circle, uniformly; the
 /// middle of a side is on the right.
@@ -66,23 +42,6 @@ template <typename T = float>
     const float turn = 2.0f * half_angle * which;
     return {std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y};
 }
-[[nodiscard]] inline float regular_polygon_pdf_area(Vec2f p, int corners) {
-    const float half_angle = kPi / static_cast<float>(corners);
-    const float side = std::round(std::atan2(p.y, p.x) / (2.0f * half_angle)) * 2.0f * half_angle;
-    if (std::cos(side) * p.x + std::sin(side) * p.y > std::cos(half_angle)) return 0.0f;
-    return 1.0f / (static_cast<float>(corners) * std::cos(half_angle) * std::sin(half_angle));
-}
-[[nodiscard]] inline Vec2f regular_polygon_to_square(Vec2f p, int corners) {
-    const auto count = static_cast<float>(corners);
-    const float half_angle = kPi / count;
-    const float which = std::round(std::atan2(p.y, p.x) / (2.0f * half_angle));
-    const float turn = 2.0f * half_angle * which;
-    const float x = std::cos(turn) * p.x + std::sin(turn) * p.y;
-    const float y = std::cos(turn) * p.y - std::sin(turn) * p.x;
-    const float from_middle = x / std::cos(half_angle);
-    const float along_side = from_middle > 0.0f ? y / (from_middle * std::sin(half_angle)) : 0.0f;
-    return {((which < 0.0f ? which + count : which) + from_middle * from_middle) / count, 0.5f * (along_side + 1.0f)};
-}
 
 /// Maps the unit square to the hemisphere around +z, with a density proportional to the cosine.
 template <typename T = float>
@@ -93,9 +52,6 @@ template <typename T = float>
 template <typename T = float>
 [[nodiscard]] inline T cosine_hemisphere_pdf_solid_angle(const Imath::Vec3<T>& w) {
     return max(T(0.0f), w.z) * kInvPi;
-}
-[[nodiscard]] inline Vec2f cosine_hemisphere_to_square(const Vec3f& w) {
-    return disk_to_square({w.x, w.y});
 }
 
 /// Maps the unit square to the unit sphere, uniformly.
@@ -108,10 +64,6 @@ template <typename T = float>
 [[nodiscard]] inline float sphere_pdf_solid_angle() {
     return kInvPi / 4.0f;
 }
-[[nodiscard]] inline Vec2f sphere_to_square(const Vec3f& w) {
-    const float phi = std::atan2(w.y, w.x) * (kInvPi * 0.5f);
-    return {phi < 0.0f ? phi + 1.0f : phi, (1.0f - w.z) * 0.5f};
-}
 
 /// Maps the unit square to the hemisphere around +z, uniformly.
 [[nodiscard]] inline Vec3f square_to_hemisphere(Vec2f u) {
@@ -119,12 +71,6 @@ template <typename T = float>
     const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
     const SinCos phi = sin_cos_turns(u.x);
     return {r * phi.cos, r * phi.sin, z};
-}
-[[nodiscard]] inline float hemisphere_pdf_solid_angle(const Vec3f& w) {
-    return w.z >= 0.0f ? kInvPi * 0.5f : 0.0f;
-}
-[[nodiscard]] inline Vec2f hemisphere_to_square(const Vec3f& w) {
-    return {sphere_to_square(w).x, 1.0f - w.z};
 }
 
 /// Maps the unit square to the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
@@ -137,9 +83,6 @@ template <typename T = float>
 [[nodiscard]] inline float cone_pdf_solid_angle(const Vec3f& w, float cos_max) {
     return w.z >= cos_max ? kInvPi * 0.5f / (1.0f - cos_max) : 0.0f;
 }
-[[nodiscard]] inline Vec2f cone_to_square(const Vec3f& w, float cos_max) {
-    return {sphere_to_square(w).x, (1.0f - w.z) / (1.0f - cos_max)};
-}
 
 /// Maps the unit square to a triangle, uniformly: to the barycentric coordinates of its second and third vertex.
 /// Low-distortion map without a square root (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
@@ -149,9 +92,6 @@ template <typename T = float>
     const T half = 0.5f * min(u.x, u.y);
     const auto above = u.y > u.x;
     return {select(above, half, u.x - half), select(above, u.y - half, half)};
-}
-[[nodiscard]] inline Vec2f triangle_to_square(Vec2f b) {
-    return b.y > b.x ? Vec2f{2.0f * b.x, b.y + b.x} : Vec2f{b.x + b.y, 2.0f * b.y};
 }
 
 }  // namespace etendue

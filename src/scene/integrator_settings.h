@@ -14,6 +14,11 @@ struct PathLengths {
     int max_depth = 32;      ///< most edges of a path from camera to light, >= 1
     int min_depth = 1;       ///< least edges of a path that is kept, >= 1
     int roulette_depth = 3;  ///< rays, whatever they lead to, after which Russian roulette may end a path, >= 1
+
+    /// Returns true if a path of `edges` edges is not too short to be kept.
+    [[nodiscard]] bool is_long_enough(int edges) const { return edges >= min_depth; }
+    /// Returns true if a path of `edges` edges is kept.
+    [[nodiscard]] bool keeps(int edges) const { return is_long_enough(edges) && edges <= max_depth; }
 };
 
 /// Says how multiple importance sampling weighs strategies against each other.

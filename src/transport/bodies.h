@@ -3,12 +3,32 @@
 
 #include "world/world.h"
 
+#include <optional>
+
 namespace etendue {
 
 /// Returns the share of light that arrives from `distance` metres away.
 [[nodiscard]] inline Rgb transmittance(const World& world, const Interior& interior, float distance) {
     const HomogeneousMedium* medium = world.media().within(interior);
     return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+}
+
+/// Names a ray that has hit a surface.
+struct ArrivingRay {
+    const Ray& ray;
+    const Interior& interior;  ///< the bodies that the ray is in
+    const Hit& hit;            ///< valid
+    RayCone cone{};            ///< around the ray
+};
+
+/// Returns what `arriving` crosses at `point`, which it has hit; nothing if the surface bounds no body. Where several
+/// surfaces touch, `point` becomes the one that bounds what fills the space.
+[[nodiscard]] inline std::optional<Crossing> crossing_at(const World& world, SurfacePoint& point,
+                                                         const ArrivingRay& arriving) {
+    const auto& [ray, interior, hit, cone] = arriving;
+    if (!world.traits().has_bodies || !world.media().is_boundary(point)) return {};
+    return hit.in_contact ? world.media().contact_crossing(point, interior, hit, ray, cone)
+                          : world.media().crossing(point, interior);
 }
 
 /// Returns the bodies on the side of a boundary to which `direction` leads.

@@ -11,12 +11,12 @@ namespace etendue {
 
 /// Holds a ray between two points; a template of its lane type, see core/lane.h.
 template <typename T>
-struct Connection {
+struct ConnectingRay {
     Imath::Vec3<T> direction;  ///< unit; any if there is no distance
     T t_max;                   ///< metres
 
     /// Leads from `origin` to just before `end`; both are clear of their surfaces.
-    Connection(const Imath::Vec3<T>& origin, const Imath::Vec3<T>& end) : direction(end - origin) {
+    ConnectingRay(const Imath::Vec3<T>& origin, const Imath::Vec3<T>& end) : direction(end - origin) {
         // What rounding may add to the length; the end is clear of its surface by more than its own rounding.
         constexpr float kBeforeEnd = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
         const T distance = length(direction);
@@ -27,9 +27,9 @@ struct Connection {
     }
 };
 
-/// Returns the ray of a `Connection` from `origin` to `end`.
+/// Returns the ray of a `ConnectingRay` from `origin` to `end`.
 [[nodiscard]] inline Ray connecting_ray(const Vec3f& origin, const Vec3f& end) {
-    const Connection<float> connection(origin, end);
+    const ConnectingRay<float> connection(origin, end);
     Ray ray;
     ray.origin = origin;
     ray.direction = connection.direction;

@@ -28,21 +28,20 @@ DeltaBranch go_straight_on(const DeltaBranch& branch, const Vertex& vertex) {
 DeltaBranch grow_along(const World& world, const DeltaBranch& branch, const Vertex& vertex, const BsdfSample& delta,
                        std::uint32_t child) {
     DeltaBranch next = grow(branch, child);
-    const Scattering scattering = vertex.scattering();
-    if (vertex.chooses_wavelength && mirrors_all_wavelengths(scattering, delta)) {
-        next.path.throughput *= world.spectral_response().mean(
-            vertex.wavelength, [&](float nm) { return mirrored_share(scattering, vertex.crossing->relative_ior(nm)); });
-    } else {
-        next.path.throughput *= delta.weight * vertex.wavelength.weight;
-        next.path.wavelength_nm = vertex.wavelength.nm;
-    }
+    const Wavelength after =
+        wavelength_after(vertex.scattering(), vertex.crossing, delta, vertex.wavelength, vertex.chooses_wavelength,
+                         [&](const auto& share) { return world.spectral_response().mean(vertex.wavelength, share); });
+    // The mean of all wavelengths has the share that is mirrored, which is the weight of the delta for one of them.
+    const bool is_of_all = vertex.chooses_wavelength && after.nm == 0.0f;
+    next.path.throughput *= is_of_all ? after.weight : delta.weight * after.weight;
+    next.path.wavelength_nm = after.nm;
     leave(world, next.path, vertex, delta, next.numbers.bits(kBranchAlpha));
     return next;
 }
 
 std::optional<DeltaBranch> survivor(DeltaBranch branch) {
     EyePath& path = branch.path;
-    const float chance = branch_survival(max_component(path.throughput) * path.eta_scale, path.rays);
+    const float chance = branch_survival(max_component(path.throughput) * path.roulette_scale, path.rays);
     if (chance >= 1.0f) return branch;
     if (to_unit_float(branch.numbers.bits(kBranchEnd)) >= chance) return {};
     path.throughput *= 1.0f / chance;
@@ -54,7 +53,7 @@ Vertex next_vertex(const World& world, DeltaBranch& branch) {
     const Hit hit = nearest_hit(world, path);
     if (!hit.valid()) return environment_vertex(path.ray.direction);
     path.throughput *= transmittance(world, path.interior, hit.t);
-    return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm,
+    return surface_vertex(world, {path.ray, path.interior, hit, path.cone}, path.wavelength_nm,
                           branch.numbers.pair(kBranchWavelength).x);
 }
 

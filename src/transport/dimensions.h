@@ -74,20 +74,20 @@ inline constexpr std::uint32_t kSubpathWavelengthDimension = 1u << 30;
 /// Returns the dimension of bounce `bounce` of a subpath, from 1 on; 0 is where a light subpath begins.
 [[nodiscard]] constexpr std::uint32_t subpath_dimension(SubpathEnd end, int bounce, SubpathDimension which) {
     const std::uint32_t first =
-        end == SubpathEnd::AtEye ? kTimeDimension + 1 : kFirstLightDimension + kEmissionDimensions;
+        end == SubpathEnd::AtEye ? kFirstFreeDimension : kFirstLightDimension + kEmissionDimensions;
     return first + static_cast<std::uint32_t>(bounce) * static_cast<std::uint32_t>(SubpathDimension::Count) +
            static_cast<std::uint32_t>(which);
 }
 
-/// Returns the dimension of the eye path's ray number `depth` and of what that leads to.
-[[nodiscard]] constexpr std::uint32_t bounce_dimension(int depth, BounceDimension which) {
-    return kFirstFreeDimension + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
+/// Returns the dimension of the eye path's ray number `rays` and of what that leads to.
+[[nodiscard]] constexpr std::uint32_t bounce_dimension(int rays, BounceDimension which) {
+    return kFirstFreeDimension + static_cast<std::uint32_t>(rays) * kBounceDimensions + which;
 }
 
-/// Returns the dimension, of those that only bodies need, of ray number `depth`.
-[[nodiscard]] constexpr std::uint32_t body_dimension(int depth, BodyDimension which) {
+/// Returns the dimension, of those that only bodies need, of ray number `rays`.
+[[nodiscard]] constexpr std::uint32_t body_dimension(int rays, BodyDimension which) {
     constexpr std::uint32_t kFirst = 1u << 30;
-    return kFirst + static_cast<std::uint32_t>(depth) * kBodyDimensions + which;
+    return kFirst + static_cast<std::uint32_t>(rays) * kBodyDimensions + which;
 }
 
 /// Returns the key of the `round`-th of `samples` light samples at a vertex of the sample with `key`. Those that are

@@ -23,9 +23,8 @@ namespace etendue {
 /// `pdf_solid_angle`.
 [[nodiscard]] inline float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
     const LightSample& light = chosen.sample;
-    // A delta light can be found in no other way; its density is that of the choice alone.
-    return light.is_delta ? 1.0f / chosen.expected_samples
-                          : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
+    // A delta light can be found in no other way.
+    return (light.is_delta ? 1.0f : power_heuristic(light.pdf_solid_angle, pdf_solid_angle)) / chosen.density();
 }
 
 /// Makes `choice` one of `samples` that share an estimate: weights and densities then are of how many samples of the

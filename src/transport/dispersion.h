@@ -29,4 +29,16 @@ namespace etendue {
         .reflection_share;
 }
 
+/// Returns the wavelength, with its weight, with which a path goes on along `sample` from a surface at `crossing` where
+/// it has, or `chooses`, the wavelength `drawn`: all wavelengths where they are mirrored alike, with the weight that
+/// `mean` makes of the share that is mirrored at each.
+template <typename Mean>
+[[nodiscard]] inline Wavelength wavelength_after(const Scattering& scattering, const std::optional<Crossing>& crossing,
+                                                 const BsdfSample& sample, const Wavelength& drawn, bool chooses,
+                                                 const Mean& mean) {
+    if (!chooses || !mirrors_all_wavelengths(scattering, sample)) return drawn;
+    return {.nm = 0.0f,
+            .weight = mean([&](float nm) { return mirrored_share(scattering, crossing->relative_ior(nm)); })};
+}
+
 }  // namespace etendue

@@ -56,12 +56,12 @@ std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, c
     const auto keep = [&](const FilmLight& light) {
         if (!is_black(light.value)) found.push_back(light);
     };
-    if (lengths.min_depth <= 1)
+    if (lengths.is_long_enough(1))
         if (const auto lamp = lamp_to_camera(sample, *subpath->emission, [](const LensView&, float) { return 1.0f; }))
             keep(*lamp);
     if (lengths.max_depth < edges_to_connect(world) || is_black(subpath->emission->weight)) return found;
     for (const SubpathVertex& vertex : follow_subpath(sample, *subpath, lengths.roulette_depth)) {
-        if (vertex.is_hidden_from_camera() || vertex.next_edges < lengths.min_depth) continue;
+        if (vertex.is_hidden_from_camera() || !lengths.is_long_enough(vertex.next_edges)) continue;
         const Vec2f lens = sample.pair(SubpathEnd::AtLight, vertex.index, SubpathDimension::LightChoice);
         const auto view = view_from_lens(world, vertex.position, lens, eye.ray.time);
         if (!view) continue;

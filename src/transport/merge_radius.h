@@ -39,9 +39,10 @@ struct Merging {
     [[nodiscard]] bool merges() const { return at != MergeAt::Nothing; }
     /// Returns eta: how many light subpaths are expected within the radius around `point`, per density of arriving
     /// there.
-    [[nodiscard]] double expected(const Vec3f& point) const {
-        const auto metres = static_cast<double>(radius(point));
-        return std::numbers::pi * metres * metres * light_paths;
+    [[nodiscard]] double expected(const Vec3f& point) const { return expected_within(radius(point)); }
+    /// Returns eta where the radius is `metres`.
+    [[nodiscard]] double expected_within(float metres) const {
+        return std::numbers::pi * static_cast<double>(metres) * static_cast<double>(metres) * light_paths;
     }
     /// Returns the raised density of all ways but a merge over that of the merge, where the recursion of both sides
     /// sums up to `ratio`.

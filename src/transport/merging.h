@@ -110,24 +110,22 @@ struct MergeKernel {
 };
 
 /// Returns the density of all other ways to the path that merges `vertex` with `photon` over that of the merge, raised.
+/// `expected` is Merging::expected at the vertex.
 template <typename AnyVertex>
 [[nodiscard]] inline double others_of_merge(const MisContext& mis, const AnyVertex& vertex, const Photon& photon,
-                                            const Scattering::TwoWayValue& scattered) {
+                                            const Scattering::TwoWayValue& scattered, double expected) {
     const SubpathDensities of_photon{.a = static_cast<double>(photon.a), .b = static_cast<double>(photon.b)};
     const double fewer = of_photon.fewer(mis.raised, static_cast<double>(scattered.pdf_solid_angle)) +
                          vertex.densities.fewer(mis.raised, static_cast<double>(scattered.reverse_pdf_solid_angle));
-    return mis.merging.others(fewer / mis.raised(mis.merging.expected(vertex.position)));
+    return mis.merging.others(fewer / mis.raised(expected));
 }
 
-/// Returns the light that an eye subpath takes from `photon` at `vertex`, at which it arrives with `throughput` and
-/// which scatters it towards the photon by `scattered`. If not `weighted`, nothing else finds it.
+/// Returns the light that an eye subpath takes from `photon` at `vertex`, which scatters it towards the photon by
+/// `scattered`, times `weight`. `expected` is Merging::expected at the vertex.
 template <typename AnyVertex>
-[[nodiscard]] inline Rgb merged_light(const MisContext& mis, const AnyVertex& vertex, const Rgb& throughput,
-                                      const Photon& photon, const Scattering::TwoWayValue& scattered,
-                                      bool weighted = true) {
-    const double weight = weighted ? 1.0 / (1.0 + others_of_merge(mis, vertex, photon, scattered)) : 1.0;
-    return throughput * scattered.f_cos * photon.throughput *
-           static_cast<float>(weight / mis.merging.expected(vertex.position));
+[[nodiscard]] inline Rgb merged_light(const AnyVertex& vertex, const Photon& photon,
+                                      const Scattering::TwoWayValue& scattered, double weight, double expected) {
+    return vertex.throughput * scattered.f_cos * photon.throughput * static_cast<float>(weight / expected);
 }
 
 }  // namespace etendue

@@ -15,7 +15,7 @@ std::uint32_t light_samples_at(const World& world, const EyePath& path, const Ve
     const int edges = path.edges + (is_medium ? 0 : 1);
     const bool samples_lights = settings.light_samples > 0 && vertex.has_non_delta() &&
                                 (is_medium ? world.traits().has_lights_in_media : world.traits().has_sampled_lights) &&
-                                edges >= settings.lengths.min_depth && edges <= settings.lengths.max_depth;
+                                settings.lengths.keeps(edges);
     if (!samples_lights) return 0;
     // Next-event splitting, where the eye looks.
     return path.only_deltas ? settings.light_samples : 1;
@@ -30,7 +30,7 @@ Rgb path_radiance(const World& world, const EyeSample& sample, const IntegratorS
         const VertexNumbers u(sample.numbers, path.rays);
         const Vertex vertex = next_vertex(world, path, u);
         // Weighed against the light samples of the vertex before, path.last.
-        if (path.edges >= settings.lengths.min_depth) radiance += met_light(world, path, vertex);
+        if (settings.lengths.is_long_enough(path.edges)) radiance += met_light(world, path, vertex);
         if (vertex.kind == Vertex::Kind::Environment || vertex.kind == Vertex::Kind::Unlit) break;
 
         const std::uint32_t light_samples = light_samples_at(world, path, vertex, settings);

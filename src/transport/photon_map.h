@@ -49,8 +49,8 @@ class PhotonMap {
 
     MergeRadius radius_;
     std::uint32_t mask_ = 0;
-    std::vector<std::uint32_t> begin_;  ///< by bucket, and the end of the last
-    std::vector<Photon> photons_;       ///< bucket by bucket
+    std::vector<std::uint32_t> begin_;  ///< first photon of each bucket, and behind them the number of photons
+    std::vector<Photon> photons_;       ///< photons of each bucket, side by side
 };
 
 }  // namespace etendue

@@ -37,6 +37,11 @@ ComparedLight compared(const StrategyLight& found, double of_path, double of_bdp
 /// Bounds the vertices of a subpath that are looked at: walks in media may have hundreds, all of which are connected.
 constexpr std::size_t kMostVertices = 8;
 
+/// Returns where a photon of ComparedSample::Photons stands among all: in place of words, which these have none of.
+auto& place_of(auto& photon) {
+    return photon.first_word;
+}
+
 double in_media(const std::vector<SubpathVertex>& vertices) {
     return static_cast<double>(std::ranges::count(vertices, Vertex::Kind::Medium, &SubpathVertex::kind));
 }
@@ -128,7 +133,7 @@ ComparedSample::Subpaths ComparedSample::follow(const SubpathSample& sample) con
 void ComparedSample::Photons::append(const Photons& others) {
     const auto before = static_cast<std::uint32_t>(all.size());
     for (Photon photon : others.all) {
-        photon.first_word += before;
+        place_of(photon) += before;
         all.push_back(photon);
     }
     unmerged.insert(unmerged.end(), others.unmerged.begin(), others.unmerged.end());
@@ -140,7 +145,7 @@ void ComparedSample::append_photons(Photons& photons) const {
         const SubpathVertex& vertex = all_.light[i];
         if (!vertex.merges) continue;
         photons.all.push_back(make_photon(vertex, vertex.surface.geometric_normal));
-        photons.all.back().first_word = static_cast<std::uint32_t>(photons.all.size() - 1);
+        place_of(photons.all.back()) = static_cast<std::uint32_t>(photons.all.size() - 1);
         photons.unmerged.push_back(unmerged_.light[i].densities);
         photons.of_path_tracing.push_back(of_path_tracing_.light[i].densities);
     }
@@ -208,6 +213,7 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
         if (!eye.merges) continue;
         SubpathVertex no_others = unmerged_.eye[i];
         no_others.densities = {};
+        const double expected = all.mis.merging.expected(eye.position);
         light_merged(all, eye, map, [&](const Photon& photon, const StrategyLight& light) {
             work.merges += 1.0;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
@@ -215,10 +221,10 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
                 Photon with = photon;
                 with.a = static_cast<float>(of_photon.a);
                 with.b = static_cast<float>(of_photon.b);
-                return others_of_merge(all.mis, vertex, with, scattered);
+                return others_of_merge(all.mis, vertex, with, scattered, expected);
             };
-            sum.add(compared(light, others(no_others, photons.of_path_tracing[photon.first_word]),
-                             others(unmerged_.eye[i], photons.unmerged[photon.first_word])));
+            sum.add(compared(light, others(no_others, photons.of_path_tracing[place_of(photon)]),
+                             others(unmerged_.eye[i], photons.unmerged[place_of(photon)])));
         });
     }
 }

@@ -60,7 +60,7 @@ class ComparedSample {
 
     /// Holds a photon for all, and its densities without merges and for path tracing alone.
     struct Photons {
-        std::vector<Photon> all;  ///< `first_word` is their index
+        std::vector<Photon> all;  ///< without words; `first_word` is the place of each here
         std::vector<SubpathDensities> unmerged;
         std::vector<SubpathDensities> of_path_tracing;
 

@@ -83,9 +83,8 @@ CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const 
         const LightNumbers u{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
         const ChosenLight chosen = world.lights().sample(receiver, u);
         if (chosen.light == environment) continue;
-        const LightSample& light = chosen.sample;
-        const float density = light.is_delta ? chosen.expected_samples : light.pdf_solid_angle;
-        if (density > 0.0f) add(light, 1.0f / density, shadow_alpha_key(alpha_key, 2 * round + 1));
+        if (const float density = chosen.density(); density > 0.0f)
+            add(chosen.sample, 1.0f / density, shadow_alpha_key(alpha_key, 2 * round + 1));
     }
     if (sum.all > 0.0) shadow.share = static_cast<float>(std::clamp(1.0 - sum.arriving / sum.all, 0.0, 1.0));
     return shadow;

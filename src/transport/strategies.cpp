@@ -13,7 +13,7 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
     const World& world = sample.world();
     const bool is_seen = eye.index == kDirectlySeen;
     const Vec3f direction = -vertex.wo;
-    if (eye.edges < sample.lengths.min_depth) return;
+    if (!sample.lengths.is_long_enough(eye.edges)) return;
     const Rgb throughput = eye.throughput * sample.wavelength_weight(eye.is_dispersed);
     if (vertex.kind == Vertex::Kind::Environment) {
         for (const std::uint32_t light : world.environment().met(is_seen)) {
@@ -49,7 +49,7 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
 
 StrategyLight light_sampled(const SubpathSample& sample, const SubpathVertex& eye) {
     const World& world = sample.world();
-    if (!world.traits().has_sampled_lights || !wants(sample, eye.next_edges)) return {};
+    if (!world.traits().has_sampled_lights || !sample.lengths.keeps(eye.next_edges)) return {};
     const auto draw = [&](SubpathDimension which) { return sample.pair(SubpathEnd::AtEye, eye.index, which); };
     const LightNumbers u{draw(SubpathDimension::LightChoice), draw(SubpathDimension::LightTriangle),
                          draw(SubpathDimension::LightDirection)};
@@ -58,16 +58,15 @@ StrategyLight light_sampled(const SubpathSample& sample, const SubpathVertex& ey
     if (is_black(light.radiance)) return {};
     const auto scattered = eye.evaluate_both_ways(light.wi, TransportMode::Radiance);
     if (is_black(scattered.f_cos)) return {};
-    return {
-        light_contribution(world, eye, eye.throughput * sample.wavelength_weight(eye.is_dispersed), light,
-                           scattered.f_cos, 1.0f / (light.is_delta ? chosen.expected_samples : light.pdf_solid_angle),
-                           {sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index)}),
-        sums_of_light_sample(sample.mis, eye, chosen, scattered)};
+    return {light_contribution(world, eye, eye.throughput * sample.wavelength_weight(eye.is_dispersed), light,
+                               scattered.f_cos, 1.0f / chosen.density(),
+                               {sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index)}),
+            sums_of_light_sample(sample.mis, eye, chosen, scattered)};
 }
 
 StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& eye, const SubpathVertex& light) {
     const World& world = sample.world();
-    if (!wants(sample, eye.next_edges + light.next_edges - 1)) return {};
+    if (!sample.lengths.keeps(eye.next_edges + light.next_edges - 1)) return {};
     const Vec3f to_light = light.position - eye.position;
     const float squared = length_squared(to_light);
     if (!(squared > 0.0f)) return {};
@@ -89,7 +88,7 @@ StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& 
 }
 
 std::optional<StrategyOnFilm> lamp_at_lens(const SubpathSample& sample, const Emission& emission) {
-    if (!wants(sample, 1)) return {};
+    if (!sample.lengths.keeps(1)) return {};
     StrategySums sums;
     const auto lamp = lamp_to_camera(sample, emission, [&](const LensView& view, float cosine) {
         sums = sums_of_seen_light(sample.mis, emission, view.camera, cosine);
@@ -101,7 +100,7 @@ std::optional<StrategyOnFilm> lamp_at_lens(const SubpathSample& sample, const Em
 
 std::optional<StrategyOnFilm> light_at_lens(const SubpathSample& sample, const SubpathVertex& light) {
     const World& world = sample.world();
-    if (light.is_hidden_from_camera() || !wants(sample, light.next_edges)) return {};
+    if (light.is_hidden_from_camera() || !sample.lengths.keeps(light.next_edges)) return {};
     const Vec2f lens = sample.pair(SubpathEnd::AtLight, light.index, SubpathDimension::LightChoice);
     const auto view = view_from_lens(world, light.position, lens, sample.eye.ray.time);
     if (!view) return {};
@@ -116,12 +115,13 @@ void light_merged(const SubpathSample& sample, const SubpathVertex& eye, const P
                   const std::function<void(const Photon&, const StrategyLight&)>& add) {
     const MergeKernel kernel{eye.position, eye.surface.geometric_normal, sample.mis.merging.radius(eye.position),
                              eye.surface.clearance};
+    const double expected = sample.mis.merging.expected_within(kernel.radius);
     photons.for_each_in(kernel, [&](const Photon& photon) {
-        if (!wants(sample, eye.next_edges - 1 + photon.edges)) return;
+        if (!sample.lengths.keeps(eye.next_edges - 1 + photon.edges)) return;
         const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
-        add(photon, {merged_light(sample.mis, eye, eye.throughput, photon, scattered, false) *
+        add(photon, {merged_light(eye, photon, scattered, 1.0, expected) *
                          sample.wavelength_weight(eye.is_dispersed || photon.is_dispersed),
-                     {.fewer_from_light = others_of_merge(sample.mis, eye, photon, scattered)}});
+                     StrategySums::of_all_others(others_of_merge(sample.mis, eye, photon, scattered, expected))});
     });
 }
 

@@ -30,11 +30,6 @@ struct StrategyOnFilm : StrategyLight {
     Vec2f film{0.0f, 0.0f};  ///< in [0, 1]², as CameraConnection::film
 };
 
-/// Returns true if paths of so many edges are kept.
-[[nodiscard]] inline bool wants(const SubpathSample& sample, int edges) {
-    return edges >= sample.lengths.min_depth && edges <= sample.lengths.max_depth;
-}
-
 /// Calls `add` with the light of s = 0: that of each thing that shines where an eye subpath meets `vertex`, at which it
 /// arrives with `arrived`.
 void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& vertex, const SubpathDensities& arrived,

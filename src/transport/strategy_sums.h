@@ -16,6 +16,8 @@ struct BasicStrategySums {
     T fewer_from_light{0.0f};
     T fewer_from_eye{0.0f};
 
+    /// Returns the sums of a strategy that all others together make `ratio` times as densely, whichever they are.
+    [[nodiscard]] static BasicStrategySums of_all_others(T ratio) { return {.fewer_from_light = ratio}; }
     [[nodiscard]] T weight() const { return T(1.0f) / (T(1.0f) + fewer_from_light + fewer_from_eye); }
 };
 

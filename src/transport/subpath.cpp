@@ -29,23 +29,25 @@ SubpathVertex make_vertex(const Subpath& subpath, const Vertex& vertex, const Su
     return {vertex, subpath.throughput, densities, subpath.index, next_edges, subpath.is_dispersed};
 }
 
-/// Sends the subpath on from `vertex`, at which it has arrived with `densities`, along `sample`.
-void depart_from(const SubpathSample& context, Subpath& subpath, const Vertex& vertex,
-                 const SubpathDensities& densities, const BsdfSample& sample) {
-    const float cosine = vertex.cosine(sample.wi);
-    subpath.departing = sample.is_delta ? depart_by_delta(context.mis.raised, densities, sample.reverse_ratio, cosine)
-                                        : depart(context.mis.raised, densities, sample.pdf_solid_angle,
-                                                 vertex.reverse_pdf(sample.wi, subpath.mode()), cosine);
-    subpath.throughput *= sample.weight;
-    if (subpath.end == SubpathEnd::AtEye && sample.is_transmission) subpath.roulette_scale *= sample.eta * sample.eta;
-    subpath.only_deltas = subpath.only_deltas && sample.is_delta;
+/// Sends the subpath on from `vertex`, at which it has arrived with `densities`, along `scattered`.
+void depart_from(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex, const SubpathDensities& densities,
+                 const BsdfSample& scattered) {
+    const float cosine = vertex.cosine(scattered.wi);
+    subpath.departing = scattered.is_delta
+                            ? depart_by_delta(sample.mis.raised, densities, scattered.reverse_ratio, cosine)
+                            : depart(sample.mis.raised, densities, scattered.pdf_solid_angle,
+                                     vertex.reverse_pdf(scattered.wi, subpath.mode()), cosine);
+    subpath.throughput *= scattered.weight;
+    if (subpath.end == SubpathEnd::AtEye && scattered.is_transmission)
+        subpath.roulette_scale *= scattered.eta * scattered.eta;
+    subpath.only_deltas = subpath.only_deltas && scattered.is_delta;
     subpath.is_direct = true;
     subpath.from = vertex.position;
     ++subpath.index;
     subpath.edges += vertex.kind == Vertex::Kind::Surface ? 1 : 0;
-    subpath.ray.origin = vertex.origin_towards(sample.wi);
-    subpath.ray.direction = sample.wi;
-    subpath.interior = vertex.interior_towards(sample.wi);
+    subpath.ray.origin = vertex.origin_towards(scattered.wi);
+    subpath.ray.direction = scattered.wi;
+    subpath.interior = vertex.interior_towards(scattered.wi);
 }
 
 /// Goes straight on through the boundary of a body that another hides, or a pane.
@@ -142,9 +144,9 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;
         }
+        const ArrivingRay arriving{subpath.ray, subpath.interior, hit};
         const Vec2f u_medium = sample.pair(subpath.end, bounce, SubpathDimension::Medium);
-        if (const auto vertex =
-                medium_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, subpath.throughput, u_medium)) {
+        if (const auto vertex = medium_vertex(world, arriving, subpath.throughput, u_medium)) {
             if (is_among_others) subpath.throughput *= chance_beyond(world, subpath.ray, vertex->position);
             const SubpathDensities densities = densities_at(sample, subpath, vertex->position, 1.0f);
             vertices.push_back(make_vertex(subpath, *vertex, densities, subpath.edges));
@@ -154,8 +156,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             break;
         } else {
             const float nanometres = subpath.is_dispersed ? sample.wavelength().nm : 0.0f;
-            const Vertex surface = surface_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, nanometres,
-                                                  sample.wavelength_number());
+            const Vertex surface = surface_vertex(world, arriving, nanometres, sample.wavelength_number());
             const float cosine = abs_dot(subpath.ray.direction, surface.surface.geometric_normal);
             const SubpathDensities densities = densities_at(sample, subpath, surface.position, cosine);
             if (arrive) arrive(subpath, surface, densities);

@@ -20,8 +20,8 @@ namespace etendue {
     return end == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
 }
 
-/// Returns how many edges the shortest way has from a light, or from a surface, to the camera by another vertex: a
-/// vertex in a medium adds none.
+/// Returns the fewest edges of a path that leads from a light, or on from a surface, by one more vertex to the camera:
+/// 2, or 1 if that vertex may lie in a medium.
 [[nodiscard]] inline int edges_to_connect(const World& world) {
     return world.traits().has_scattering_bodies ? 1 : 2;
 }

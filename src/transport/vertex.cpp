@@ -1,7 +1,6 @@
 #include "transport/vertex.h"
 
 #include "bsdf/gloss.h"
-#include "transport/bodies.h"
 
 namespace etendue {
 
@@ -64,8 +63,8 @@ LightReceiver light_receiver(const Vec3f& position, const Scattering& scattering
     return receiver;
 }
 
-std::optional<Vertex> medium_vertex(const World& world, const Ray& ray, const RayCone& cone, const Interior& interior,
-                                    const Hit& hit, Rgb& throughput, Vec2f u) {
+std::optional<Vertex> medium_vertex(const World& world, const ArrivingRay& arriving, Rgb& throughput, Vec2f u) {
+    const auto& [ray, interior, hit, cone] = arriving;
     const HomogeneousMedium* const medium = world.media().within(interior);
     if (medium == nullptr) return {};
     const MediumSample sample = medium->sample(throughput, hit.t, u);
@@ -82,8 +81,8 @@ std::optional<Vertex> medium_vertex(const World& world, const Ray& ray, const Ra
     return vertex;
 }
 
-Vertex surface_vertex(const World& world, const Ray& ray, const RayCone& cone, const Interior& interior, const Hit& hit,
-                      float nanometres, float u_wavelength) {
+Vertex surface_vertex(const World& world, const ArrivingRay& arriving, float nanometres, float u_wavelength) {
+    const auto& [ray, interior, hit, cone] = arriving;
     Vertex vertex;
     vertex.wo = -ray.direction;
     vertex.distance = hit.t;
@@ -92,9 +91,7 @@ Vertex surface_vertex(const World& world, const Ray& ray, const RayCone& cone, c
     vertex.hit = hit;
     vertex.surface = world.geometry().surface_point(hit, ray, cone);
     SurfacePoint& point = vertex.surface;
-    if (world.traits().has_bodies && world.media().is_boundary(point))
-        vertex.crossing = hit.in_contact ? world.media().contact_crossing(point, interior, hit, ray, cone)
-                                         : world.media().crossing(point, interior);
+    vertex.crossing = crossing_at(world, point, arriving);
     vertex.position = point.position;
     vertex.kind = vertex.crossing && vertex.crossing->is_hidden ? Vertex::Kind::Boundary
                   : point.material->unlit                       ? Vertex::Kind::Unlit

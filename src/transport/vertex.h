@@ -4,6 +4,7 @@
 #include "bsdf/bsdf.h"
 #include "core/ray_cone.h"
 #include "light/light_receiver.h"
+#include "transport/bodies.h"
 #include "world/scattering.h"
 #include "world/world.h"
 
@@ -81,15 +82,15 @@ struct Vertex {
     return vertex;
 }
 
-/// Returns where the medium that `ray` is in, with `cone` around it and from within `interior`, scatters it before it
-/// hits `hit` (valid); nothing if it gets through. Multiplies `throughput` by the transmittance, times the scattering
-/// coefficient where it scatters, over the density. `u` in [0, 1)² draws how far it gets.
-[[nodiscard]] std::optional<Vertex> medium_vertex(const World& world, const Ray& ray, const RayCone& cone,
-                                                  const Interior& interior, const Hit& hit, Rgb& throughput, Vec2f u);
+/// Returns where the medium that `arriving` is in scatters it before it hits anything; nothing if it gets through.
+/// Multiplies `throughput` by the transmittance, times the scattering coefficient where it scatters, over the density.
+/// `u` in [0, 1)² draws how far it gets.
+[[nodiscard]] std::optional<Vertex> medium_vertex(const World& world, const ArrivingRay& arriving, Rgb& throughput,
+                                                  Vec2f u);
 
-/// Returns the surface that `ray`, with `cone` around it, has hit at `hit` (valid) from within `interior`. The path has
-/// taken the wavelength `nanometres`, 0 for all; if the surface has it take one, `u_wavelength` in [0, 1) says which.
-[[nodiscard]] Vertex surface_vertex(const World& world, const Ray& ray, const RayCone& cone, const Interior& interior,
-                                    const Hit& hit, float nanometres, float u_wavelength);
+/// Returns the surface that `arriving` has hit. The path has taken the wavelength `nanometres`, 0 for all; if the
+/// surface has it take one, `u_wavelength` in [0, 1) says which.
+[[nodiscard]] Vertex surface_vertex(const World& world, const ArrivingRay& arriving, float nanometres,
+                                    float u_wavelength);
 
 }  // namespace etendue

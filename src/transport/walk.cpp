@@ -8,29 +8,13 @@
 
 namespace etendue {
 
-namespace {
-
-/// Multiplies the throughput by what of the light of a path's wavelengths goes along `sample`.
-void scatter_wavelengths(const World& world, EyePath& path, const Vertex& vertex, const BsdfSample& sample) {
-    const Scattering scattering = vertex.scattering();
-    if (vertex.chooses_wavelength && mirrors_all_wavelengths(scattering, sample)) {
-        path.throughput *= world.spectral_response().mean_over_chance(
-            vertex.wavelength, [&](float nm) { return mirrored_share(scattering, vertex.crossing->relative_ior(nm)); });
-        return;
-    }
-    path.throughput *= vertex.wavelength.weight;
-    path.wavelength_nm = vertex.wavelength.nm;
-}
-
-}  // namespace
-
-VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int depth)
-    : medium(numbers.pair(body_dimension(depth, kMedium))),
-      wavelength(numbers.pair(body_dimension(depth, kWavelength)).x),
-      lobe(numbers.pair(bounce_dimension(depth, kChoices)).x),
-      direction(numbers.pair(bounce_dimension(depth, kBsdfDirection))),
-      roulette(numbers.pair(bounce_dimension(depth, kChoices)).y),
-      alpha_key(numbers.bits(bounce_dimension(depth, kAlpha))) {}
+VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int rays)
+    : medium(numbers.pair(body_dimension(rays, kMedium))),
+      wavelength(numbers.pair(body_dimension(rays, kWavelength)).x),
+      lobe(numbers.pair(bounce_dimension(rays, kChoices)).x),
+      direction(numbers.pair(bounce_dimension(rays, kBsdfDirection))),
+      roulette(numbers.pair(bounce_dimension(rays, kChoices)).y),
+      alpha_key(numbers.bits(bounce_dimension(rays, kAlpha))) {}
 
 EyePath begin_at_eye(const World& world, const EyeSample& sample) {
     return {
@@ -72,9 +56,9 @@ Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
     const Hit hit = nearest_hit(world, path);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
     if (!hit.valid()) return environment_vertex(path.ray.direction);
-    if (const auto vertex = medium_vertex(world, path.ray, path.cone, path.interior, hit, path.throughput, u.medium))
-        return *vertex;
-    return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm, u.wavelength);
+    const ArrivingRay arriving{path.ray, path.interior, hit, path.cone};
+    if (const auto vertex = medium_vertex(world, arriving, path.throughput, u.medium)) return *vertex;
+    return surface_vertex(world, arriving, path.wavelength_nm, u.wavelength);
 }
 
 bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
@@ -97,7 +81,13 @@ bool scatter(const World& world, EyePath& path, const Vertex& vertex, const Vert
     }
     if (is_surface && path.edges >= max_depth) return false;
     path.throughput *= sample.weight;
-    if (is_surface) scatter_wavelengths(world, path, vertex, sample);
+    if (is_surface) {
+        const Wavelength after = wavelength_after(
+            vertex.scattering(), vertex.crossing, sample, vertex.wavelength, vertex.chooses_wavelength,
+            [&](const auto& share) { return world.spectral_response().mean_over_chance(vertex.wavelength, share); });
+        path.throughput *= after.weight;
+        path.wavelength_nm = after.nm;
+    }
     path.edges += is_surface ? 1 : 0;
     path.only_deltas = path.only_deltas && sample.is_delta;
     path.last = {.receiver = vertex.receiver(),
@@ -115,12 +105,12 @@ void leave(const World& world, EyePath& path, const Vertex& vertex, const BsdfSa
     path.ray.direction = sample.wi;
     path.ray.alpha_key = alpha_key;
     path.interior = vertex.interior_towards(sample.wi);
-    if (sample.is_transmission) path.eta_scale *= sample.eta * sample.eta;
+    if (sample.is_transmission) path.roulette_scale *= sample.eta * sample.eta;
 }
 
 bool survives_roulette(const World& world, EyePath& path, float u, int roulette_depth) {
     if (path.rays < first_roulette(world, roulette_depth)) return true;
-    const float survival = eye_path_survival(max_component(path.throughput) * path.eta_scale, path.rays);
+    const float survival = eye_path_survival(max_component(path.throughput) * path.roulette_scale, path.rays);
     path.throughput *= 1.0f / survival;
     return u < survival;
 }

@@ -36,7 +36,7 @@ struct EyeLight {
 /// that were taken there.
 struct LightSampleContext {
     LightReceiver receiver;
-    std::uint32_t samples = 0;     ///< that were taken of the light; 0 if none of them can find what the ray meets
+    std::uint32_t samples = 0;     ///< light samples at the vertex; 0 if none of them can find what the ray meets
     float pdf_solid_angle = 0.0f;  ///< 1/sr, of the ray's direction; not meaningful if there are no `samples`
     float passed = 0.0f;           ///< metres from the vertex to where the ray starts, over 0 behind panes
 };
@@ -45,14 +45,14 @@ struct LightSampleContext {
 /// back along it.
 struct EyePath {
     Ray ray;
-    RayCone cone;                ///< around the ray
-    Interior interior;           ///< the bodies that the ray is in
-    Rgb throughput{1.0f};        ///< the share of its light that arrives at the eye, over the density of the path
-    float eta_scale = 1.0f;      ///< eta² over all refractions: what radiance takes from the throughput, unlike power
-    float wavelength_nm = 0.0f;  ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
-    int rays = 1;                ///< traced, this one included
-    int edges = 1;               ///< rays traced without those to media, panes and hidden boundaries
-    bool only_deltas = true;     ///< every vertex so far was a delta, or there is none: the eye sees what the ray meets
+    RayCone cone;                 ///< around the ray
+    Interior interior;            ///< the bodies that the ray is in
+    Rgb throughput{1.0f};         ///< the share of its light that arrives at the eye, over the density of the path
+    float roulette_scale = 1.0f;  ///< eta² over all refractions: what radiance takes from the throughput, unlike power
+    float wavelength_nm = 0.0f;   ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
+    int rays = 1;                 ///< traced, this one included
+    int edges = 1;                ///< rays traced without those to media, panes and hidden boundaries
+    bool only_deltas = true;  ///< every vertex so far was a delta, or there is none: the eye sees what the ray meets
     LightSampleContext last{};
     SampleTracer* tracer = nullptr;  ///< traces the path's rays; null if the World does
 
@@ -69,7 +69,7 @@ struct VertexNumbers {
     float roulette;
     std::uint32_t alpha_key;  ///< alpha key of the ray that goes on
 
-    VertexNumbers(const SampleNumbers& numbers, int depth);
+    VertexNumbers(const SampleNumbers& numbers, int rays);
 };
 
 /// Returns the path of `sample` that has come nowhere yet.

@@ -51,10 +51,10 @@ struct WhittedLight {
         const EyePath& path = branch.path;
         const bool escapes = vertex.kind == Vertex::Kind::Environment;
         if (escapes && path.is_seen() && world.environment().met(true).empty()) found.alpha = 0.0f;
-        if (path.edges >= lengths.min_depth)
+        if (lengths.is_long_enough(path.edges))
             (path.is_seen() ? found.seen : found.scattered) += met_light(world, path, vertex);
         if (vertex.kind != Vertex::Kind::Surface) return;
-        if (path.edges < lengths.max_depth && path.edges + 1 >= lengths.min_depth && vertex.has_non_delta())
+        if (lengths.keeps(path.edges + 1) && vertex.has_non_delta())
             found.scattered += branch_direct_light(world, branch, vertex);
     }
     [[nodiscard]] static NoState after(NoState state, const Vertex&, const BsdfSample&) { return state; }

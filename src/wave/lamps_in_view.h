@@ -45,7 +45,7 @@ class LampsInView {
                Share share = {});
 
     /// True if the emission of what a camera ray has hit first is found here, and nobody else may add it.
-    [[nodiscard]] bool finds(const Hit& hit) const { return is_active_ && is_lamp(*world_, hit); }
+    [[nodiscard]] bool finds_emission(const Hit& hit) const { return is_active_ && is_lamp(*world_, hit); }
 
     /// Returns true if the emission that a path of `sample` has met by deltas alone is found here (lamp_images.h).
     [[nodiscard]] bool finds_image(const CameraSample& sample) const {

@@ -25,6 +25,9 @@ struct ChosenLight {
     /// taken.
     float expected_samples = 0;
     std::uint32_t light = kNone;
+
+    /// Returns what the light of the sample is divided by: its density, 1/sr, or of a delta light the samples expected.
+    [[nodiscard]] float density() const { return sample.is_delta ? expected_samples : sample.pdf_solid_angle; }
 };
 
 /// Holds the random numbers that a light sample is made from, each in [0, 1)².

@@ -85,7 +85,7 @@ float share(float diffuse, float specular) {
 }  // namespace
 
 BsdfValue Scattering::evaluate(const Vec3f& wi, TransportMode mode) const {
-    if (is_hidden(wi, mode)) return {};
+    if (has_no_eye_along(wi, mode)) return {};
     const Placed placed_wi = placed(wi);
     // The commonest by far, and many at once elsewhere.
     if (const auto* matte = std::get_if<Diffuse>(bsdf_)) return evaluate_matte(surface_, *matte, placed_wi.w, mode);
@@ -184,7 +184,7 @@ Scattering::TwoWayValue Scattering::evaluate_both_ways(const Vec3f& wi, Transpor
 
 BsdfSample Scattering::sample(float u_lobe, Vec2f u, TransportMode mode) const {
     const BsdfSample sample = sample_both_sides(u_lobe, u, mode);
-    return is_hidden(sample.wi, mode) ? BsdfSample{} : sample;
+    return has_no_eye_along(sample.wi, mode) ? BsdfSample{} : sample;
 }
 
 BsdfSample Scattering::sample_both_sides(float u_lobe, Vec2f u, TransportMode mode) const {

@@ -113,7 +113,7 @@ class Scattering {
     [[nodiscard]] BsdfSample sample_for_eye(float u_lobe, Vec2f u) const;
     [[nodiscard]] BsdfSample sample_for_light(float u_lobe, Vec2f u) const;
     /// True if a walk from a light finds no eye along `wi`.
-    [[nodiscard]] bool is_hidden(const Vec3f& wi, TransportMode mode) const {
+    [[nodiscard]] bool has_no_eye_along(const Vec3f& wi, TransportMode mode) const {
         return hides_behind_ != 0.0f && mode == TransportMode::Importance &&
                !(dot(wi, surface_.geometric_normal) * hides_behind_ > 0.0f);
     }

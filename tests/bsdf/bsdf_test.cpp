@@ -302,13 +302,6 @@ TEST(Bsdf, RadianceModeIsTheAdjointOfImportanceMode) {
     }
 }
 
-TEST(Bsdf, EstimatedAlbedoIsThatOfTheDiffuseLobe) {
-    const Rgb albedo = estimate_albedo(Diffuse{{0.8f, 0.5f, 0.0f}}, direction_at(0.3f), 64, 1);
-    EXPECT_NEAR(albedo.r, 0.8f, 1e-5f);
-    EXPECT_NEAR(albedo.g, 0.5f, 1e-5f);
-    EXPECT_EQ(albedo.b, 0.0f);
-}
-
 TEST(Bsdf, KnowsWhichLobesAreDeltasAndWhichHaveTwoSides) {
     EXPECT_FALSE(has_non_delta(SmoothConductor{}));
     EXPECT_FALSE(has_non_delta(SmoothDielectric{}));

@@ -4,6 +4,7 @@
 #include "bsdf_settings.h"
 #include "support/chi2.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -74,8 +75,10 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
             const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
                 return ggx.sample_visible_normal(wo, random.next_2d());
             };
+            // Heitz 2014, equation 2.
             const auto density = [&](const Vec3f& h) {
-                return h.z > 0.0f ? static_cast<double>(ggx.visible_normal_pdf(wo, h)) : 0.0;
+                return h.z > 0.0f ? static_cast<double>(ggx.g1(wo) * ggx.d(h) * std::max(0.0f, dot(wo, h)) / wo.z)
+                                  : 0.0;
             };
             const SamplerCheck check = check_sphere_sampler(sampler, density, {.seed = ++seed});
             EXPECT_GE(check.chi2.p_value, level) << check.chi2.str();

@@ -1,5 +1,6 @@
 #include "sampling/warp.h"
 
+#include "sampling/warp_inverses.h"
 #include "support/chi2.h"
 
 #include <cmath>

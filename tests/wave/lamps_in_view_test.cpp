@@ -218,6 +218,7 @@ double mean_lamp(const World& world, std::optional<Strategy> only, bool is_weigh
     options.lengths = {.max_depth = 1};
     options.strategy = only;
     options.weighted = is_weighted;
+    options.merging.at = MergeAt::Nothing;
     const std::vector<float> image =
         render_lamp(world, BdptIntegrator(options), whole_image(kLampSide, kLampSide, 64, seed)).film.resolve();
     double sum = 0.0;

@@ -13,10 +13,10 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
         sentences.push_back(fmt::format(
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
             settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
-    if (settings_.strategy == kMerges && merging_.at != MergeAt::Everywhere &&
-        (merging_.at == MergeAt::Nothing || !world.traits().has_specular_surfaces))
+    if (settings_.strategy == kMerges && settings_.merging.at != MergeAt::Everywhere &&
+        (settings_.merging.at == MergeAt::Nothing || !world.traits().has_specular_surfaces))
         sentences.emplace_back("the image stays black: no vertices merge; '--merge all' merges everywhere");
-    const bool merges = merging_.at != MergeAt::Nothing && settings_.strategy.value_or(kMerges) == kMerges;
+    const bool merges = settings_.merging.at != MergeAt::Nothing && settings_.strategy.value_or(kMerges) == kMerges;
     if (world.traits().has_delta_lights && world.traits().has_specular_surfaces && !merges)
         sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "
@@ -38,13 +38,13 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
 
 Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
     return make_merging(world, job.full_width, job.full_height, static_cast<double>(photon_paths(job.window)),
-                        job.first_sample, merging_);
+                        job.first_sample, settings_.merging);
 }
 
 std::unique_ptr<const LampImages> BdptIntegrator::lamp_images(const World& world, const TileJob& whole,
                                                               const PixelRect& window) const {
-    // They are of no single strategy, and an observer is to see all weights.
-    if (!settings_.lamp_images || settings_.strategy || observer_ != nullptr) return nullptr;
+    // They are of no single strategy.
+    if (!settings_.lamp_images || settings_.strategy) return nullptr;
     return find_lamp_images(world, whole, window);
 }
 
@@ -60,7 +60,7 @@ void BdptIntegrator::trace_photons(const World& world, const TileJob& job, Integ
 void BdptIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
     auto& wave = static_cast<BdptWave&>(scratch);
-    wave.start(world, job, settings_, observer_);
+    wave.start(world, job, settings_);
     trace_in_waves<BdptWave>(world, job, settings_, scratch, tile, counters);
     wave.finish(tile, counters);
 }

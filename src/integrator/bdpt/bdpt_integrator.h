@@ -10,18 +10,13 @@
 // material.
 #pragma once
 
-#include "integrator/bdpt/weight_observer.h"
 #include "integrator/integrator.h"
 
 namespace etendue {
 
 class BdptIntegrator final : public Integrator {
   public:
-    /// `observer` must outlive the integrator; null if nobody sees weights. Subpaths merge as `merging` says, not as
-    /// `settings` do.
-    explicit BdptIntegrator(const IntegratorSettings& settings, WeightObserver* observer = nullptr,
-                            const MergeSettings& merging = {.at = MergeAt::Nothing})
-        : settings_(settings), observer_(observer), merging_(merging) {}
+    explicit BdptIntegrator(const IntegratorSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -37,8 +32,6 @@ class BdptIntegrator final : public Integrator {
 
   private:
     IntegratorSettings settings_;
-    WeightObserver* observer_;
-    MergeSettings merging_;
 };
 
 }  // namespace etendue

@@ -20,13 +20,12 @@ struct BdptJob : SubpathJob {
     /// True if the vertex may be connected to those of other samples: each sample has a time and a wavelength of
     /// its own.
     [[nodiscard]] bool is_shared(const ConnectibleVertex& vertex) const {
-        return settings.cached_connections > 0 && !world.traits().has_motion && !vertex.is_dispersed;
+        return settings.cached_connections > 0 && !world().traits().has_motion && !vertex.is_dispersed;
     }
-    [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
     [[nodiscard]] bool wants(const Strategy& strategy) const {
         return !settings.strategy || *settings.strategy == strategy;
     }
-    [[nodiscard]] WeightRule rule() const { return {raised, settings.weighted}; }
+    [[nodiscard]] WeightRule rule() const { return {mis.raised, settings.weighted}; }
     /// Returns `strategy_weight` by the settings.
     [[nodiscard]] float weight(const StrategySums& sums) const { return strategy_weight(settings, sums); }
 };

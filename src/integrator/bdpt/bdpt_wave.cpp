@@ -29,28 +29,31 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
                          settings.cached_connections > 0 ? SampleOrder::SampleBySample : SampleOrder::PixelByPixel);
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
-    const BdptJob bdpt{{world, job, settings.lengths, Raised{settings.heuristic}, samples_, camera_rays_,
-                        settings.aimed_emission, job.merging},
+    const BdptJob bdpt{{.mis = mis_context(world, job, settings),
+                        .job = job,
+                        .lengths = settings.lengths,
+                        .samples = samples_,
+                        .camera_rays = camera_rays_},
                        settings};
     const SparedRays spared = spared_rays(settings.lengths.roulette_depth);
-    MetLight met({bdpt, eye_, lamps_, observed_, found_, alpha_, tile, counters});
+    MetLight met({bdpt, eye_, lamps_, found_, alpha_, tile, counters});
     eye_.trace(bdpt, spared.of_eye, &met, found_, counters);
     if (world.traits().has_lights) {
         light_.trace(bdpt, spared.of_light, nullptr, found_, counters);
-        if (bdpt.wants(1) && bdpt.wants({.s = 1, .t = 1}))
+        if (bdpt.lengths.keeps(1) && bdpt.wants({.s = 1, .t = 1}))
             lamps_to_camera_.connect(bdpt, light_, camera_connections_,
                                      [&](const Emission& emission, const CameraConnection& camera, float cosine) {
-                                         return bdpt.weight(sums_of_seen_light(bdpt.mis(), emission, camera, cosine));
+                                         return bdpt.weight(sums_of_seen_light(bdpt.mis, emission, camera, cosine));
                                      });
         light_vertices_.collect(bdpt, light_.vertices().connectible());
         stamp(job.profile, Stage::Mis);
         to_light_.collect(bdpt, SubpathEnd::AtEye, eye_);
         stamp(job.profile, Stage::Numbers);
-        const auto resolve_if_full = [&](Connections& connections) {
+        const auto resolve_if_full = [&](ShadowRayQueue& connections) {
             if (connections.is_full()) connections.resolve(world, job, samples_, found_, tile, counters);
         };
-        for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlock) {
-            const std::size_t end = std::min(begin + kBlock, to_light_.size());
+        for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlockLanes) {
+            const std::size_t end = std::min(begin + kBlockLanes, to_light_.size());
             if (world.traits().has_sampled_lights) connect_to_lights(bdpt, begin, end);
             resolve_if_full(light_connections_);
             resolve_if_full(wide_light_connections_);
@@ -60,14 +63,14 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         }
         to_camera_.collect(bdpt, SubpathEnd::AtLight, light_);
         stamp(job.profile, Stage::Numbers);
-        for (std::size_t begin = 0; begin < to_camera_.size(); begin += kBlock) {
-            connect_to_camera(bdpt, begin, std::min(begin + kBlock, to_camera_.size()));
+        for (std::size_t begin = 0; begin < to_camera_.size(); begin += kBlockLanes) {
+            connect_to_camera(bdpt, begin, std::min(begin + kBlockLanes, to_camera_.size()));
             resolve_if_full(camera_connections_);
             resolve_if_full(wide_camera_connections_);
         }
         if (job.photons != nullptr && bdpt.wants(kMerges)) merge(bdpt);
-        for (Connections* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
-                                         &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
+        for (ShadowRayQueue* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
+                                            &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
             connections->resolve(world, job, samples_, found_, tile, counters);
     }
     lamps_.note_radiance(samples_, found_);
@@ -81,8 +84,11 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
     found_.reset(count, job, counters.brightest.threshold());
-    const SubpathJob subpaths{world,    job,          settings.lengths,        Raised{settings.heuristic},
-                              samples_, camera_rays_, settings.aimed_emission, job.merging};
+    const SubpathJob subpaths{.mis = mis_context(world, job, settings),
+                              .job = job,
+                              .lengths = settings.lengths,
+                              .samples = samples_,
+                              .camera_rays = camera_rays_};
     light_.trace(subpaths, spared_rays(settings.lengths.roulette_depth).of_light, nullptr, found_, counters);
     for (const PathVertex& vertex : light_.vertices().all())
         if (vertex.merges)
@@ -92,18 +98,21 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
 
 void BdptWave::merge(const BdptJob& job) {
     const SharedPhotons& photons = *job.job.photons;
-    const MisContext mis = job.mis();
+    const MisContext& mis = job.mis;
     for (std::uint32_t v = 0; v < eye_.vertices().all().size(); ++v) {
         const PathVertex& found = eye_.vertices().all()[v];
         // Without weights a path is to be found once.
         if (!found.merges || (!job.settings.weighted && !found.is_seen_directly)) continue;
         const PathVertex& eye = eye_.vertices().whole(v);
         const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position), eye.clearance};
+        const double expected = mis.merging.expected_within(kernel.radius);
         photons.map().for_each_in(kernel, [&](const Photon& photon) {
-            if (!job.wants(eye.next_edges - 1 + photon.edges)) return;
+            if (!job.lengths.keeps(eye.next_edges - 1 + photon.edges)) return;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             if (is_black(scattered.f_cos)) return;
-            const Rgb light = merged_light(mis, eye, eye.throughput, photon, scattered, job.settings.weighted) *
+            const double weight =
+                job.settings.weighted ? 1.0 / (1.0 + others_of_merge(mis, eye, photon, scattered, expected)) : 1.0;
+            const Rgb light = merged_light(eye, photon, scattered, weight, expected) *
                               job.wavelength_weight(eye.slot, eye.is_dispersed || photon.is_dispersed);
             shares_.clear();
             if (eye_.vertices().words().are_followed())
@@ -116,20 +125,18 @@ void BdptWave::merge(const BdptJob& job) {
     stamp(job.job.profile, Stage::Mis);
 }
 
-void BdptWave::start(const World& world, const TileJob& job, const IntegratorSettings& settings,
-                     WeightObserver* observer) {
-    observed_.start(observer);
+void BdptWave::start(const World& world, const TileJob& job, const IntegratorSettings& settings) {
     const bool is_wanted = !settings.strategy || *settings.strategy == Strategy{.s = 0, .t = 2};
     lamps_.start(
         world, job, settings.lengths, false,
         [&world, &job, &settings, is_wanted](const CameraSample& sample, const Ray& ray, const SurfacePoint& point) {
             const std::uint32_t light = world.lights().at(point);
             if (!is_wanted || light == kNone) return is_wanted ? 1.0f : 0.0f;
-            const SubpathJob of_sample{world, job, settings.lengths, Raised{settings.heuristic}, {}, {}};
+            const MisContext mis = mis_context(world, job, settings);
             const SubpathDensities arrived =
-                arrive_from_lens(of_sample.mis(), {}, world.camera().connect(point.position, sample.lens, ray.time),
+                arrive_from_lens(mis, {}, world.camera().connect(point.position, sample.lens, ray.time),
                                  static_cast<double>(abs_dot(ray.direction, point.geometric_normal)));
-            return strategy_weight(settings, sums_at_seen_emitter(of_sample.mis(), light, arrived));
+            return strategy_weight(settings, sums_at_seen_emitter(mis, light, arrived));
         });
 }
 

@@ -4,12 +4,11 @@
 #include "integrator/bdpt/bdpt_job.h"
 #include "integrator/bdpt/connection_lanes.h"
 #include "integrator/bdpt/light_vertices.h"
-#include "integrator/bdpt/observed_paths.h"
 #include "integrator/integrator.h"
 #include "transport/strategy_sums.h"
-#include "wave/connections.h"
 #include "wave/lamps_in_view.h"
 #include "wave/photons.h"
+#include "wave/shadow_ray_queue.h"
 #include "wave/subpath/camera_splat.h"
 #include "wave/subpath/connectible_vertices.h"
 #include "wave/subpath/lamps_to_camera.h"
@@ -26,16 +25,15 @@ namespace etendue {
 /// Traces and connects the subpaths of many samples.
 class BdptWave final : public IntegratorScratch {
   public:
-    /// Samples in a wave. A vertex takes 316 bytes, its MatteEnd included, and 248 more for a lobe that was evaluated
-    /// there: the ten or so of a sample stay in a cache of 2 MiB until they are connected.
+    /// Bounds the samples of a wave, so that their ten or so vertices each, with 248 bytes more for a lobe that was
+    /// evaluated there, stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
-    /// Vertices whose connections go from one stage to the next together.
-    static constexpr std::size_t kBlock = kBlockLanes;
+    static_assert(sizeof(PathVertex) + sizeof(MatteEnd) <= 320);
 
     [[nodiscard]] std::size_t bytes() const override;
 
-    /// Starts a job, before its samples are traced. `observer` may be null.
-    void start(const World& world, const TileJob& job, const IntegratorSettings& settings, WeightObserver* observer);
+    /// Starts a job, before its samples are traced.
+    void start(const World& world, const TileJob& job, const IntegratorSettings& settings);
     /// Ends the job, after its samples are traced.
     void finish(TileBuffer& tile, RenderCounters& counters) { lamps_.finish(tile, counters); }
     /// Appends to `photons` those of the light subpaths of samples [first, first + count) of the job, count <=
@@ -70,8 +68,7 @@ class BdptWave final : public IntegratorScratch {
     // Those of plain matte surfaces, whose lanes are computed at once.
     struct WideToLight {
         const ConnectibleVertex* vertex;
-        std::uint32_t light;     ///< light that was chosen
-        std::uint32_t triangle;  ///< triangle of the light
+        std::uint32_t light;  ///< light that was chosen
     };
     struct WideToCamera {
         const ConnectibleVertex* vertex;
@@ -84,6 +81,8 @@ class BdptWave final : public IntegratorScratch {
         const MatteEnd* light_end;
         float scale;
     };
+    /// Chooses lights for those of eye vertices [first, last) whose connections to them are wanted.
+    void choose_lights(const BdptJob& job, std::size_t first, std::size_t last);
     /// Connects eye vertices [first, last) to points on lights that are sampled for them: s = 1.
     void connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last);
     /// Merges eye vertices with the photons of the job.
@@ -108,14 +107,14 @@ class BdptWave final : public IntegratorScratch {
     /// Returns false if there is nothing to say of connections but their rays and the light that they bring.
     [[nodiscard]] bool asks_for_each(const BdptJob& job);
     /// Leaves the first `count` connections of a block, of which there is nothing else to say, to `connections`.
-    static void queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections);
+    static void queue_wide(const ConnectionColumns& lanes, std::size_t count, ShadowRayQueue& connections);
     // Leaves the rays of connections, with what they bring, to `connections`.
-    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
-               const Brought& brought, Connections& connections);
-    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
-               const Brought& brought, Connections& connections);
+    void queue(const BdptJob& job, const ConnectibleVertex& vertex, std::uint32_t light, const Vec3f& wi, Ray ray,
+               const Rgb& brought, ShadowRayQueue& connections);
+    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray, const Rgb& brought,
+               ShadowRayQueue& connections);
     void queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
-               const Brought& brought, Connections& connections);
+               const Rgb& brought, ShadowRayQueue& connections);
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
@@ -136,7 +135,7 @@ class BdptWave final : public IntegratorScratch {
     std::vector<LightReceiver> receivers_;
     std::vector<Vec2f> choosing_;  ///< numbers for the choice of a light
     std::vector<LightTree::Choice> choices_;
-    std::vector<std::size_t> lit_;  ///< whose they are
+    std::vector<std::size_t> lit_;  ///< vertices that the numbers and choices are for, as places in `to_light_`
     std::vector<WideToLight> wide_to_lights_;
     std::vector<WideToCamera> wide_to_cameras_;
     std::array<WideBetween, kBlockLanes> wide_between_{};
@@ -146,10 +145,9 @@ class BdptWave final : public IntegratorScratch {
     BetweenLanes between_lanes_;
     // That wait for their rays. What is computed at once waits by itself: which comes first of it and of the others of
     // a sample would depend on what other samples are beside it, and not only where a queue fills.
-    Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
-    Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
-    Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
-    ObservedPaths observed_{eye_, light_};
+    ShadowRayQueue light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
+    ShadowRayQueue camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
+    ShadowRayQueue vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
 };
 
 }  // namespace etendue

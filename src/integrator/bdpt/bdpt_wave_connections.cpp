@@ -19,25 +19,29 @@ constexpr std::uint32_t kCacheDimension = 3u << 29;
 
 }  // namespace
 
-void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last) {
-    const World& world = job.world;
-    WaveProfile* const profile = job.job.profile;
+void BdptWave::choose_lights(const BdptJob& job, std::size_t first, std::size_t last) {
     receivers_.clear();
     choosing_.clear();
     lit_.clear();
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& vertex = to_light_[v];
-        if (!job.wants(vertex.next_edges) || !job.wants({.s = 1, .t = vertex.index + 1})) continue;
+        if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = 1, .t = vertex.index + 1})) continue;
         const MatteEnd& end = eye_.vertices().matte_end(vertex);
         receivers_.push_back(end.exists() ? end.position : eye_.vertices().whole(vertex).position);
         choosing_.push_back(to_light_.numbers(v)[0]);
         lit_.push_back(v);
     }
     choices_.resize(lit_.size());
-    world.lights().choose(receivers_, choosing_, choices_);
-    std::array<const MeshLight*, kBlock> meshes;
-    std::array<Vec3f, kBlock> points;
-    std::array<Vec2f, kBlock> u_triangle;
+    job.world().lights().choose(receivers_, choosing_, choices_);
+}
+
+void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last) {
+    const World& world = job.world();
+    WaveProfile* const profile = job.job.profile;
+    choose_lights(job, first, last);
+    std::array<const MeshLight*, kBlockLanes> meshes;
+    std::array<Vec3f, kBlockLanes> points;
+    std::array<Vec2f, kBlockLanes> u_triangle;
     for (std::size_t i = 0; i < lit_.size(); ++i) {
         const bool is_wide = eye_.vertices().matte_end(to_light_[lit_[i]]).exists();
         meshes[i] = is_wide ? world.lights().even_mesh(choices_[i].light) : nullptr;
@@ -45,7 +49,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
         u_triangle[i] = triangle;
     }
-    std::array<MeshLight::TriangleChoice, kBlock> triangles;
+    std::array<MeshLight::TriangleChoice, kBlockLanes> triangles;
     MeshLight::choose_triangles(std::span(meshes).first(lit_.size()), points, u_triangle, triangles);
     to_lights_.clear();
     wide_to_lights_.clear();
@@ -61,7 +65,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         }
         const std::size_t lane = wide_to_lights_.size();
         const MeshLight::TriangleChoice& on_light = triangles[i];
-        wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
+        wide_to_lights_.push_back({&vertex, choice.light});
         to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
         to_light_lanes_.eye.set(lane, eye_.vertices().matte_end(vertex));
         to_light_lanes_.front.set(lane, *mesh, on_light);
@@ -89,53 +93,37 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
     const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = job.weight(sums_of_light_sample(job.mis(), vertex, chosen, value));
+    const float share = job.weight(sums_of_light_sample(job.mis, vertex, chosen, value));
     if (share == 0.0f) return;
-    const float density = light.is_delta ? chosen.expected_samples : light.pdf_solid_angle;
-    queue(job, *connection.vertex,
-          {.light = chosen.light,
-           .triangle = light.triangle,
-           .position = vertex.position + light.wi * (std::isinf(light.distance) ? 0.0f : light.distance),
-           .direction = -light.wi,
-           .cos_light = light.cos_light},
-          shadow_ray(vertex.origin(light.wi), light),
-          {vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
-               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
-           share},
+    queue(job, *connection.vertex, chosen.light, light.wi, shadow_ray(vertex.origin(light.wi), light),
+          vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
+              job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / chosen.density()),
           light_connections_);
 }
 
 void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
-    to_light_lanes_.connect(wide_to_lights_.size(), job.rule(), job.world.emitters().aim(job.aims));
+    to_light_lanes_.connect(wide_to_lights_.size(), job.rule(), job.world().emitters().aim(job.mis.aims));
     if (!asks_for_each(job)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
-        const auto& [vertex, light, triangle] = wide_to_lights_[lane];
-        const Brought brought = to_light_lanes_.brought(lane);
-        if (is_black(brought.light)) continue;
-        const Vec3f wi = to_light_lanes_.wi[lane];
-        queue(job, *vertex,
-              {.light = light,
-               .triangle = triangle,
-               .position = to_light_lanes_.eye[lane].position + wi * to_light_lanes_.distance[lane],
-               .direction = -wi,
-               .cos_light = to_light_lanes_.cos_light[lane]},
-              to_light_lanes_.ray(lane), brought, wide_light_connections_);
+        const auto& [vertex, light] = wide_to_lights_[lane];
+        if (const Rgb brought = to_light_lanes_.contribution[lane]; !is_black(brought))
+            queue(job, *vertex, light, to_light_lanes_.wi[lane], to_light_lanes_.ray(lane), brought,
+                  wide_light_connections_);
     }
 }
 
-void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
-                     const Brought& brought, Connections& connections) {
+void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, std::uint32_t light, const Vec3f& wi, Ray ray,
+                     const Rgb& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     shares_.clear();
     if (PathWords& words = eye_.vertices().words(); words.are_followed()) {
         const PathVertex& whole = eye_.vertices().whole(vertex);
-        words.end_at_light(whole.words, whole.event(-end.direction, TransportMode::Radiance),
-                           words.light_source(job.world, end.light), shares_);
+        words.end_at_light(whole.words, whole.event(wi, TransportMode::Radiance),
+                           words.light_source(job.world(), light), shares_);
     }
-    connections.to_sample(ray, vertex.slot, brought.light,
-                          vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
-    if (observed_.are_seen()) observed_.show(job, 1, brought.weight, end, vertex.vertex);
+    connections.to_sample(ray, vertex.slot, brought, vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect,
+                          shares_);
 }
 
 void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::size_t last) {
@@ -144,12 +132,12 @@ void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::siz
     wide_to_cameras_.clear();
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& vertex = to_camera_[v];
-        if (!job.wants(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
+        if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
         const MatteEnd& end = light_.vertices().matte_end(vertex);
-        if (!end.exists() && light_.vertices().whole(vertex).is_hidden) continue;
+        if (!end.exists() && light_.vertices().whole(vertex).is_hidden_from_camera) continue;
         const Vec3f& position = end.exists() ? end.position : light_.vertices().whole(vertex).position;
-        const auto view = view_from_camera(job.world, job.job, position, lens, job.camera_rays[vertex.slot].time);
+        const auto view = view_from_camera(job.world(), job.job, position, lens, job.camera_rays[vertex.slot].time);
         if (!view) continue;
         if (!end.exists()) {
             to_cameras_.push_back({&vertex, *view, {}});
@@ -179,19 +167,18 @@ void BdptWave::weigh(const BdptJob& job, const ToCamera& connection) {
     const PathVertex& vertex = light_.vertices().whole(*connection.vertex);
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = job.weight(sums_at_lens(job.mis(), vertex, view.direction, view.camera, value));
+    const float share = job.weight(sums_at_lens(job.mis, vertex, view.direction, view.camera, value));
     queue(job, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
-          {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
-               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
-           share},
+          vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
+              job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
           camera_connections_);
 }
 
 void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
-    to_camera_lanes_.connect(wide_to_cameras_.size(), job.rule(), static_cast<float>(job.samples_per_light_path()));
+    to_camera_lanes_.connect(wide_to_cameras_.size(), job.rule(), static_cast<float>(job.mis.samples_per_light_path));
     if (!asks_for_each(job))
         return to_camera_lanes_.for_each_wide(
-            wide_to_cameras_.size(), [&](const WideConnections& connections, WideMask which, std::size_t first) {
+            wide_to_cameras_.size(), [&](const WideShadowRays& connections, WideMask which, std::size_t first) {
                 wide_camera_connections_.to_film(connections, which, [&](std::size_t lane) {
                     const CameraView& view = wide_to_cameras_[first + lane].view;
                     return SplatPlace{view.pixel, view.depth};
@@ -199,22 +186,21 @@ void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
             });
     for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
         const auto& [vertex, view] = wide_to_cameras_[lane];
-        if (const Brought brought = to_camera_lanes_.brought(lane); !is_black(brought.light))
+        if (const Rgb brought = to_camera_lanes_.contribution[lane]; !is_black(brought))
             queue(job, *vertex, view, to_camera_lanes_.ray(lane), brought, wide_camera_connections_);
     }
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
-                     const Brought& brought, Connections& connections) {
+                     const Rgb& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
     shares_.clear();
     if (light_.vertices().words().are_followed())
         light_.vertices().words().end_at_camera(
             light_.vertices().words_after(light_.vertices().whole(vertex), view.direction), shares_);
-    connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought.light, .depth = view.depth},
+    connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought, .depth = view.depth},
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
-    if (observed_.are_seen()) observed_.show_to_camera(job, vertex, brought.weight, view.camera);
 }
 
 void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last) {
@@ -261,7 +247,8 @@ void BdptWave::find_cached(const BdptJob& job, const ConnectibleVertex& eye, int
 
 void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end,
                     const ConnectibleVertex& light, float scale) {
-    if (!job.wants(eye.next_edges + light.next_edges - 1) || !job.wants({.s = light.index + 1, .t = eye.index + 1}))
+    if (!job.lengths.keeps(eye.next_edges + light.next_edges - 1) ||
+        !job.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
     const MatteEnd& light_end = light_.vertices().matte_end(light);
     if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, light, scale);
@@ -290,13 +277,11 @@ void BdptWave::weigh(const BdptJob& job, const Between& connection) {
     const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
     const PathVertex& eye = eye_.vertices().whole(*eye_vertex);
     const PathVertex& light = light_.vertices().whole(*light_vertex);
-    const float share = job.weight(sums_between(job.raised, eye, light, w, squared, at_eye, at_light));
-    queue(
-        job, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
-        {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
-             job.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
-         share},
-        vertex_connections_);
+    const float share = job.weight(sums_between(job.mis.raised, eye, light, w, squared, at_eye, at_light));
+    queue(job, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
+          eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
+              job.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
+          vertex_connections_);
 }
 
 void BdptWave::weigh_wide_between(const BdptJob& job) {
@@ -311,24 +296,24 @@ void BdptWave::weigh_wide_between(const BdptJob& job) {
     between_lanes_.connect(count, job.rule());
     if (!asks_for_each(job)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
     for (std::size_t lane = 0; lane < count; ++lane)
-        if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
+        if (const Rgb brought = between_lanes_.contribution[lane]; !is_black(brought))
             queue(job, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
                   wide_vertex_connections_);
 }
 
 bool BdptWave::asks_for_each(const BdptJob& job) {
-    return eye_.vertices().words().are_followed() || job.world.traits().has_motion ||
-           job.world.traits().has_transparency || observed_.are_seen();
+    return eye_.vertices().words().are_followed() || job.world().traits().has_motion ||
+           job.world().traits().has_transparency;
 }
 
-void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {
-    lanes.for_each_wide(count, [&](const WideConnections& wide, WideMask which, std::size_t /*first*/) {
+void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, ShadowRayQueue& connections) {
+    lanes.for_each_wide(count, [&](const WideShadowRays& wide, WideMask which, std::size_t /*first*/) {
         connections.to_sample(wide, which);
     });
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
-                     const Brought& brought, Connections& connections) {
+                     const Rgb& brought, ShadowRayQueue& connections) {
     ray.time = job.camera_rays[eye.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
                     job.connection_key(SubpathEnd::AtLight, light.index, light.slot);
@@ -340,8 +325,7 @@ void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& eye, const Con
         eye_.vertices().words().join(eye_.vertices().words_after(at_eye, w), light_.vertices().words(),
                                      light_.vertices().words_after(at_light, -w), shares_);
     }
-    connections.to_sample(ray, eye.slot, brought.light, LightKind::Indirect, shares_);
-    if (observed_.are_seen()) observed_.show_between(job, eye, light, brought.weight);
+    connections.to_sample(ray, eye.slot, brought, LightKind::Indirect, shares_);
 }
 
 }  // namespace etendue

@@ -5,7 +5,7 @@ namespace etendue {
 void BetweenLanes::connect(std::size_t count, const WeightRule& rule) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const BasicMatteEnd<Wide> end = eye.load(l, count);
-        store(l, end.origin, etendue::connect(rule, end, light.load(l, count), scale.load(l)));
+        store(l, end.origin, connect_ends(rule, end, light.load(l, count), scale.load(l)));
     }
 }
 
@@ -15,19 +15,16 @@ void ToLightLanes::connect(std::size_t count, const WeightRule& rule, const Ligh
         const LightTriangleFront<Wide> triangle = front.load(l);
         const LightTriangleSample<Wide> sample = triangle.sample(end.position, u.load(l));
         wi.store(l, sample.wi);
-        distance.store(l, sample.distance);
-        cos_light.store(l, sample.cos_light);
         store(l, end.origin,
-              etendue::connect(rule, end, triangle, sample, radiance.load(l), probability.load(l), choice_ratio.load(l),
-                               aim));
+              connect_to_triangle(rule, end, triangle, sample, radiance.load(l), probability.load(l),
+                                  choice_ratio.load(l), aim));
     }
 }
 
 void ToCameraLanes::connect(std::size_t count, const WeightRule& rule, float samples_per_path) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const BasicMatteEnd<Wide> end = light.load(l, count);
-        store(l, end.origin,
-              etendue::connect(rule, end, lens.load(l), w.load(l), importance.load(l), samples_per_path));
+        store(l, end.origin, connect_to_lens(rule, end, lens.load(l), w.load(l), importance.load(l), samples_per_path));
     }
 }
 

@@ -3,25 +3,18 @@
 
 #include "core/columns.h"
 #include "integrator/bdpt/matte_connections.h"
-#include "wave/connections.h"
 #include "wave/light_front_columns.h"
+#include "wave/shadow_ray_queue.h"
 
 #include <cstddef>
 
 namespace etendue {
-
-/// Holds the light that a connection brings if nothing is in the way, and the weight that this light includes.
-struct Brought {
-    Rgb light;
-    float weight;
-};
 
 struct ConnectionColumns {
     BitColumn slot;       ///< sample that gets the light
     BitColumn is_direct;  ///< 1 where that is direct light, else 0
 
     RgbColumns contribution;
-    Column weight;
     Vec3Columns origin, direction;
     Column t_max;
 
@@ -29,7 +22,6 @@ struct ConnectionColumns {
         slot.set(lane, slot_of_lane);
         is_direct.set(lane, is_direct_light ? 1u : 0u);
     }
-    [[nodiscard]] Brought brought(std::size_t lane) const { return {contribution[lane], weight[lane]}; }
     [[nodiscard]] Ray ray(std::size_t lane) const {
         Ray ray;
         ray.origin = origin[lane];
@@ -43,21 +35,20 @@ struct ConnectionColumns {
     void for_each_wide(std::size_t count, const Queue& queue) const {
         for (std::size_t first = 0; first < count; first += Wide::kWidth) {
             const BasicRgb<Wide> light = contribution.load(first);
-            queue(WideConnections{.origin = origin.load(first),
-                                  .direction = direction.load(first),
-                                  .t_max = t_max.load(first),
-                                  .time = 0.0f,
-                                  .alpha_key = 0u,
-                                  .slot = slot.load(first),
-                                  .contribution = light,
-                                  .is_direct = is_direct.load(first) != WideBits(0u)},
+            queue(WideShadowRays{.origin = origin.load(first),
+                                 .direction = direction.load(first),
+                                 .t_max = t_max.load(first),
+                                 .time = 0.0f,
+                                 .alpha_key = 0u,
+                                 .slot = slot.load(first),
+                                 .contribution = light,
+                                 .is_direct = is_direct.load(first) != WideBits(0u)},
                   WideMask::first(count - first) && !is_black(light), first);
         }
     }
     void store(std::size_t first, const Imath::Vec3<Wide>& from, const MatteConnection<Wide>& connection) {
         origin.store(first, from);
         contribution.store(first, connection.contribution);
-        weight.store(first, connection.weight);
         direction.store(first, connection.ray.direction);
         t_max.store(first, connection.ray.t_max);
     }
@@ -82,9 +73,7 @@ struct ToLightLanes : ConnectionColumns {
     Column probability;   ///< of choosing the light, for a sample
     Column choice_ratio;  ///< of light and triangle being chosen for an emission, over that for a sample
 
-    // The sample.
-    Vec3Columns wi;
-    Column distance, cos_light;
+    Vec3Columns wi;  ///< to the sample
 
     void connect(std::size_t count, const WeightRule& rule, const LightAim& aim);
 };

@@ -34,13 +34,13 @@ template <typename T>
 struct MatteConnection {
     BasicRgb<T> contribution;  ///< if nothing is in the way; black where nothing would be scattered
     T weight;                  ///< that it includes
-    Connection<T> ray;         ///< from the origin of the end on the eye's side, otherwise from that of the light's
+    ConnectingRay<T> ray;      ///< from the origin of the end on the eye's side, otherwise from that of the light's
 };
 
 /// Returns the connection of the ends of both subpaths, which stands for `scale` connections.
 template <typename T>
-[[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
-                                                const BasicMatteEnd<T>& light, T scale) {
+[[nodiscard]] inline MatteConnection<T> connect_ends(const WeightRule& rule, const BasicMatteEnd<T>& eye,
+                                                     const BasicMatteEnd<T>& light, T scale) {
     const Imath::Vec3<T> to_light = light.position - eye.position;
     const T squared = length_squared(to_light);
     const Imath::Vec3<T> w = to_light * (1.0f / sqrt(squared));
@@ -49,17 +49,18 @@ template <typename T>
                                  light.importance_pdf(-w) * eye.cosine(w) * inverse, eye.fewer);
     const BasicRgb<T> contribution = eye.radiance(w) * light.importance(-w) * (scale * weight * inverse);
     return {select(eye.cosine(w) > T(0.0f) && light.cosine(-w) > T(0.0f), contribution, BasicRgb<T>()), weight,
-            Connection<T>(eye.origin, light.origin)};
+            ConnectingRay<T>(eye.origin, light.origin)};
 }
 
 /// Returns the connection of `eye` to a sample of an evenly shining mesh light; `probability` is that of the choice of
 /// the light for `eye`, `choice_ratio` that of both light and triangle for an emission over that for `eye`; emission is
 /// aimed by `aim`.
 template <typename T>
-[[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
-                                                const LightTriangleFront<T>& front, const LightTriangleSample<T>& light,
-                                                const BasicRgb<T>& radiance, T probability, T choice_ratio,
-                                                const LightAim& aim) {
+[[nodiscard]] inline MatteConnection<T> connect_to_triangle(const WeightRule& rule, const BasicMatteEnd<T>& eye,
+                                                            const LightTriangleFront<T>& front,
+                                                            const LightTriangleSample<T>& light,
+                                                            const BasicRgb<T>& radiance, T probability, T choice_ratio,
+                                                            const LightAim& aim) {
     const T pdf = light.pdf_solid_angle * probability;
     T emission_pdf = front.emission_pdf_solid_angle(light.cos_light);
     if (!aim.empty())
@@ -69,19 +70,19 @@ template <typename T>
     const T weight = rule.weight(eye.radiance_pdf(light.wi) / pdf, T(1.0f), choice_ratio * from_light, eye.fewer);
     const BasicRgb<T> contribution = eye.radiance(light.wi) * radiance * (weight / pdf);
     return {select(light.pdf_solid_angle > T(0.0f) && eye.cosine(light.wi) > T(0.0f), contribution, BasicRgb<T>()),
-            weight, Connection<T>(eye.origin, light.end)};
+            weight, ConnectingRay<T>(eye.origin, light.end)};
 }
 
 /// Returns the connection of `light` to the point `lens`, which lies along `w` and sees this end of a light subpath
-/// with `importance` per area, 1/m²; `samples_per_path` is SubpathJob::samples_per_light_path.
+/// with `importance` per area, 1/m²; `samples_per_path` is MisContext::samples_per_light_path.
 template <typename T>
-[[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& light,
-                                                const Imath::Vec3<T>& lens, const Imath::Vec3<T>& w, T importance,
-                                                float samples_per_path) {
+[[nodiscard]] inline MatteConnection<T> connect_to_lens(const WeightRule& rule, const BasicMatteEnd<T>& light,
+                                                        const Imath::Vec3<T>& lens, const Imath::Vec3<T>& w,
+                                                        T importance, float samples_per_path) {
     const T from_eye = samples_per_path * importance * light.cosine(w);
     const T weight = rule.weight(from_eye, light.fewer, T(0.0f), T(0.0f));
     return {select(light.cosine(w) > T(0.0f), light.importance(w) * (importance * weight), BasicRgb<T>()), weight,
-            Connection<T>(light.origin, lens)};
+            ConnectingRay<T>(light.origin, lens)};
 }
 
 }  // namespace etendue

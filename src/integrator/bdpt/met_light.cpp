@@ -16,11 +16,11 @@ LightKind kind_of_light_met_by(const SubpathState& state) {
 }  // namespace
 
 void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
-    find_first_hits(parts_.job.world, parts_.job.job, parts_.job.samples, rays, hits, parts_.tile);
+    find_first_hits(parts_.job.world(), parts_.job.job, parts_.job.samples, rays, hits, parts_.tile);
     parts_.lamps.note(parts_.job.samples, rays, hits, parts_.counters);
 }
 
-void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
+void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySums& sums,
                    const AovSet::Source& source) {
     const BdptJob& job = parts_.job;
     PathWords& words = parts_.eye.vertices().words();
@@ -32,22 +32,20 @@ void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySu
     parts_.found.add(state.slot,
                      state.throughput * light * job.wavelength_weight(state.slot, state.is_dispersed) * share,
                      kind_of_light_met_by(state), shares_);
-    if (parts_.observed.are_seen() && state.index > kDirectlySeen)
-        parts_.observed.show(job, 0, share, end, state.last_vertex);
 }
 
 void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                           const SubpathDensities& arrived) {
-    if (state.edges < parts_.job.lengths.min_depth) return;
-    if (state.only_delta && state.edges > 1 && parts_.lamps.finds_image(parts_.job.samples[state.slot])) return;
-    const World& world = parts_.job.world;
+    if (!parts_.job.lengths.is_long_enough(state.edges)) return;
+    if (state.only_deltas && state.edges > 1 && parts_.lamps.finds_image(parts_.job.samples[state.slot])) return;
+    const World& world = parts_.job.world();
     const Rgb emitted = world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
     StrategySums sums;
     const std::uint32_t light = world.lights().at(point);
     const float cos_light = -dot(direction, point.geometric_normal);
     if (state.index > kDirectlySeen && light != kNone)
-        sums = sums_at_emitter(parts_.job.mis(), state.from,
+        sums = sums_at_emitter(parts_.job.mis, state.from,
                                {.light = light,
                                 .triangle = point.triangle,
                                 .point = point.position,
@@ -55,38 +53,30 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
                                 .cos_light = cos_light},
                                arrived);
     else if (state.is_direct && light != kNone)
-        sums = sums_at_seen_emitter(parts_.job.mis(), light, arrived);
-    add(state, emitted, sums,
-        {.light = light,
-         .triangle = point.triangle,
-         .position = point.position,
-         .direction = -direction,
-         .cos_light = cos_light,
-         .is_reached_directly = state.is_direct},
-        parts_.eye.vertices().words().surface_source(point));
+        sums = sums_at_seen_emitter(parts_.job.mis, light, arrived);
+    add(state, emitted, sums, parts_.eye.vertices().words().surface_source(point));
 }
 
-void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
+void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point) {
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-    if (state.only_delta && state.edges >= parts_.job.lengths.min_depth)
-        add(state, parts_.job.world.materials().unlit_color(point), {},
-            {.position = point.position, .direction = -direction}, parts_.eye.vertices().words().surface_source(point));
+    if (state.only_deltas && parts_.job.lengths.is_long_enough(state.edges))
+        add(state, parts_.job.world().materials().unlit_color(point), {},
+            parts_.eye.vertices().words().surface_source(point));
 }
 
 void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
-    const World& world = parts_.job.world;
+    const World& world = parts_.job.world();
     const bool is_direct = state.index == kDirectlySeen;
     const std::span<const std::uint32_t> met = world.environment().met(is_direct);
     if (is_direct && met.empty()) parts_.alpha[state.slot] = 0.0f;
-    if (state.edges < parts_.job.lengths.min_depth) return;
+    if (!parts_.job.lengths.is_long_enough(state.edges)) return;
     for (const std::uint32_t light : met) {
         const Rgb radiance = world.environment().radiance(light, direction);
         // What is black of an environment is met, too, and weighed.
         if (light != world.environment().light() && is_black(radiance)) continue;
         StrategySums sums;
-        if (!is_direct) sums = sums_from_afar(parts_.job.mis(), state.from, light, direction, state.departing);
-        add(state, radiance, sums, {.light = light, .direction = -direction, .is_reached_directly = state.is_direct},
-            parts_.eye.vertices().words().light_source(world, light));
+        if (!is_direct) sums = sums_from_afar(parts_.job.mis, state.from, light, direction, state.departing);
+        add(state, radiance, sums, parts_.eye.vertices().words().light_source(world, light));
     }
 }
 

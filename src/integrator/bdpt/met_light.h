@@ -2,8 +2,6 @@
 #pragma once
 
 #include "integrator/bdpt/bdpt_job.h"
-#include "integrator/bdpt/complete_path.h"
-#include "integrator/bdpt/observed_paths.h"
 #include "wave/aov/sample_light.h"
 #include "wave/lamps_in_view.h"
 
@@ -20,7 +18,6 @@ class MetLight final : public LightFinder {
         const BdptJob& job;
         SubpathWave& eye;
         LampsInView& lamps;
-        ObservedPaths& observed;
         SampleLight& found;
         std::vector<float>& alpha;  ///< by slot, 0 where the eye sees nothing
         TileBuffer& tile;
@@ -31,15 +28,16 @@ class MetLight final : public LightFinder {
 
     void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                     const SubpathDensities& arrived) override;
-    void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
+    void on_unlit(const SubpathState& state, const SurfacePoint& point) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
-    [[nodiscard]] bool knows_emission(const Hit& first_hit) const override { return parts_.lamps.finds(first_hit); }
+    [[nodiscard]] bool finds_emission(const Hit& first_hit) const override {
+        return parts_.lamps.finds_emission(first_hit);
+    }
 
   private:
     /// Adds `light` to the sample of `state`, by its weight.
-    void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
-             const AovSet::Source& source);
+    void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const AovSet::Source& source);
 
     Parts parts_;
     std::vector<ExpressionShare> shares_;  ///< shares of expressions in the light of the path at hand

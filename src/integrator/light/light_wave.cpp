@@ -38,9 +38,13 @@ void LightWave::trace(const World& world, const TileJob& job, const IntegratorSe
 void LightWave::trace_subpaths(const World& world, const TileJob& job, const IntegratorSettings& settings,
                                TileBuffer& tile, RenderCounters& counters) {
     const PathLengths& lengths = settings.lengths;
-    const SubpathJob subpath_job{world, job, lengths, Raised{}, samples_, camera_rays_, settings.aimed_emission};
+    const SubpathJob subpath_job{.mis = mis_context(world, job, settings),
+                                 .job = job,
+                                 .lengths = lengths,
+                                 .samples = samples_,
+                                 .camera_rays = camera_rays_};
     subpaths_.trace(subpath_job, lengths.roulette_depth, nullptr, found_, counters);
-    if (lengths.min_depth <= 1)
+    if (lengths.is_long_enough(1))
         lamps_.connect(subpath_job, subpaths_, connections_,
                        [](const Emission&, const CameraConnection&, float) { return 1.0f; });
     connect_vertices(subpath_job, tile, counters);
@@ -52,10 +56,10 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
     to_camera_.collect(job, SubpathEnd::AtLight, subpaths_);
     for (std::size_t i = 0; i < to_camera_.size(); ++i) {
         const PathVertex& vertex = subpaths_.vertices().whole(to_camera_[i]);
-        if (vertex.is_hidden || vertex.next_edges < job.lengths.min_depth) continue;
+        if (vertex.is_hidden_from_camera || !job.lengths.is_long_enough(vertex.next_edges)) continue;
         const float time = camera_rays_[vertex.slot].time;
         const auto [lens] = to_camera_.numbers(i);
-        const auto view = view_from_camera(job.world, job.job, vertex.position, lens, time);
+        const auto view = view_from_camera(job.world(), job.job, vertex.position, lens, time);
         if (!view) continue;
         const Rgb scattered = vertex.evaluate(view->direction, TransportMode::Importance);
         if (is_black(scattered)) continue;
@@ -75,7 +79,7 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
             vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
         if (!connections_.is_full()) continue;
         stamp(job.job.profile, Stage::Material);
-        connections_.resolve(job.world, job.job, samples_, found_, tile, counters);
+        connections_.resolve(job.world(), job.job, samples_, found_, tile, counters);
     }
 }
 

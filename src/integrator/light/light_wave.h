@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integrator/integrator.h"
-#include "wave/connections.h"
+#include "wave/shadow_ray_queue.h"
 #include "wave/subpath/connectible_vertices.h"
 #include "wave/subpath/lamps_to_camera.h"
 #include "wave/subpath/subpath_wave.h"
@@ -36,7 +36,7 @@ class LightWave final : public IntegratorScratch {
     SubpathWave subpaths_{SubpathEnd::AtLight, false};
     VerticesToCamera to_camera_;
     LampsToCamera lamps_;
-    Connections connections_{RayKind::LightToCamera};
+    ShadowRayQueue connections_{RayKind::LightToCamera};
 };
 
 }  // namespace etendue

@@ -22,16 +22,25 @@ void BlockLanes::sample_mesh_lights(std::size_t count) {
     }
 }
 
-void BlockLanes::evaluate_and_sample_matte(std::size_t count) {
+void BlockLanes::evaluate_matte(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
-        const OrientedSurface<Wide> surface({tangent.load(l), bitangent.load(l), normal.load(l)},
-                                            geometric_normal.load(l), wo.load(l), true);
-        const BasicDiffuse<Wide> lobe{albedo.load(l)};
-        const BasicBsdfValue<Wide> value =
-            evaluate_matte(surface, lobe, surface.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
+        const OrientedSurface<Wide> oriented = surface(l);
+        const BasicBsdfValue<Wide> value = etendue::evaluate_matte(
+            oriented, {albedo.load(l)}, oriented.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
         f_cos.store(l, value.f_cos);
         pdf.store(l, value.pdf_solid_angle);
-        const BasicBsdfSample<Wide> sample = sample_matte(surface, lobe, u_bsdf.load(l), TransportMode::Radiance);
+    }
+}
+
+void BlockLanes::evaluate_and_sample_matte(std::size_t count) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const OrientedSurface<Wide> oriented = surface(l);
+        const BasicDiffuse<Wide> lobe{albedo.load(l)};
+        const BasicBsdfValue<Wide> value =
+            etendue::evaluate_matte(oriented, lobe, oriented.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
+        f_cos.store(l, value.f_cos);
+        pdf.store(l, value.pdf_solid_angle);
+        const BasicBsdfSample<Wide> sample = sample_matte(oriented, lobe, u_bsdf.load(l), TransportMode::Radiance);
         next_direction.store(l, sample.wi);
         next_weight.store(l, sample.weight);
         next_pdf.store(l, sample.pdf_solid_angle);
@@ -57,7 +66,7 @@ void BlockLanes::weigh_light(std::size_t count, const PathColumns& paths, std::s
         const WideVec3 wi = light_wi.load(l);
         const WideVec3 origin = offset_origin(position.load(l), geometric_normal.load(l), clearance.load(l), wi);
         shadow_origin.store(l, origin);
-        const Connection<Wide> connection(origin, light_end.load(l));
+        const ConnectingRay<Wide> connection(origin, light_end.load(l));
         const auto is_far = light_distance.load(l) == Wide(kInfinity);
         shadow_direction.store(
             l, {select(is_far, wi.x, connection.direction.x), select(is_far, wi.y, connection.direction.y),

@@ -4,6 +4,7 @@
 #include "integrator/path/path_columns.h"
 #include "wave/light_front_columns.h"
 #include "wave/surface_lanes.h"
+#include "world/oriented_surface.h"
 
 #include <cstddef>
 
@@ -64,8 +65,9 @@ struct BlockLanes : SurfaceLanes {
 
     /// Samples mesh lights from `position`, the triangles and `u_light`.
     void sample_mesh_lights(std::size_t count);
-    /// Computes `f_cos` and `pdf` of matte surfaces towards the light, and `next_direction`, `next_weight` and
-    /// `next_pdf` from `u_bsdf`.
+    /// Computes `f_cos` and `pdf` of matte surfaces towards the light.
+    void evaluate_matte(std::size_t count);
+    /// Computes as `evaluate_matte` does, and `next_direction`, `next_weight` and `next_pdf` from `u_bsdf`.
     void evaluate_and_sample_matte(std::size_t count);
     /// Computes `next_origin` from `next_direction`.
     void set_next_origins(std::size_t count);
@@ -73,6 +75,12 @@ struct BlockLanes : SurfaceLanes {
     void weigh_light(std::size_t count, const PathColumns& paths, std::size_t first);
     /// Takes the paths on for which `is_wide` is 1, unless nothing was scattered.
     void scatter(std::size_t count, PathColumns& paths, std::size_t first);
+
+  private:
+    /// Returns the surfaces of lanes from `l` on, turned to `wo`.
+    [[nodiscard]] OrientedSurface<Wide> surface(std::size_t l) const {
+        return {{tangent.load(l), bitangent.load(l), normal.load(l)}, geometric_normal.load(l), wo.load(l), true};
+    }
 };
 
 }  // namespace etendue

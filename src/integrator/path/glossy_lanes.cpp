@@ -1,8 +1,5 @@
 #include "integrator/path/glossy_lanes.h"
 
-#include "bsdf/plain_metallic_roughness.h"
-#include "world/oriented_surface.h"
-
 namespace etendue {
 
 namespace {
@@ -21,15 +18,25 @@ void for_color(const Move& move, A& a, B& b) {
     move(a.b, b.b);
 }
 
-}  // namespace
-
-void GlossyLanes::take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices,
-                       const NumberPairs& directions) {
-    std::size_t to = 0;
+/// Calls `move(l, which, place)` for the lanes from `l` on of each group that has paths on gloss, `which`, to whom the
+/// places from `place` on belong where they stand side by side.
+template <typename Move>
+void for_each_glossy_group(const BlockLanes& lanes, std::size_t paths, const Move& move) {
+    std::size_t place = 0;
     for (std::size_t l = 0; l < paths; l += Wide::kWidth) {
         const WideMask which = lanes.is_glossy.load(l) != Wide(0.0f);
         const std::size_t lanes_here = count(which);
         if (lanes_here == 0) continue;
+        move(l, which, place);
+        place += lanes_here;
+    }
+}
+
+}  // namespace
+
+void GlossyLanes::take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices,
+                       const NumberPairs& directions) {
+    for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t to) {
         const auto put = [&](Column& column, Wide values) { column.store_unaligned(to, compress(values, which)); };
         const auto move = [&](const etendue::Column& from, Column& column) { put(column, from.load(l)); };
         for_vector(move, lanes.tangent, tangent);
@@ -37,44 +44,63 @@ void GlossyLanes::take(const BlockLanes& lanes, std::size_t paths, const NumberP
         for_vector(move, lanes.normal, normal);
         for_vector(move, lanes.geometric_normal, geometric_normal);
         for_vector(move, lanes.wo, wo);
-        for_vector(move, lanes.light_wi, light_wi);
         put(u_lobe, choices.load(l).x);
         const Imath::Vec2<Wide> direction = directions.load(l);
         put(u_bsdf.x, direction.x);
         put(u_bsdf.y, direction.y);
-        to += lanes_here;
-    }
+    });
+    take_lights(lanes, paths);
 }
 
-void GlossyLanes::give(BlockLanes& lanes, std::size_t paths) const {
-    std::size_t from = 0;
-    for (std::size_t l = 0; l < paths; l += Wide::kWidth) {
-        const WideMask which = lanes.is_glossy.load(l) != Wide(0.0f);
-        const std::size_t lanes_here = count(which);
-        if (lanes_here == 0) continue;
+void GlossyLanes::take_lights(const BlockLanes& lanes, std::size_t paths) {
+    for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t to) {
+        const auto move = [&](const etendue::Column& from, Column& column) {
+            column.store_unaligned(to, compress(from.load(l), which));
+        };
+        for_vector(move, lanes.light_wi, light_wi);
+    });
+}
+
+void GlossyLanes::give_values(BlockLanes& lanes, std::size_t paths) const {
+    for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t from) {
         const auto move = [&](const Column& column, etendue::Column& to) {
             to.store(l, expand(column.load_unaligned(from), which, to.load(l)));
         };
         for_color(move, f_cos, lanes.f_cos);
         move(pdf, lanes.pdf);
+    });
+}
+
+void GlossyLanes::give_samples(BlockLanes& lanes, std::size_t paths) const {
+    for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t from) {
+        const auto move = [&](const Column& column, etendue::Column& to) {
+            to.store(l, expand(column.load_unaligned(from), which, to.load(l)));
+        };
         for_vector(move, next_direction, lanes.next_direction);
         for_color(move, next_weight, lanes.next_weight);
         move(next_pdf, lanes.next_pdf);
-        from += lanes_here;
+    });
+}
+
+void GlossyLanes::evaluate(std::size_t count) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const OrientedSurface<Wide> oriented = surface(l);
+        const BasicBsdfValue<Wide> value =
+            lobe(l).evaluate(oriented.leaning, oriented.seen_from(), oriented.frame.to_local(light_wi.load(l)));
+        f_cos.store(l, value.f_cos);
+        pdf.store(l, value.pdf_solid_angle);
     }
 }
 
 void GlossyLanes::evaluate_and_sample(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
-        const OrientedSurface<Wide> surface({tangent.load(l), bitangent.load(l), normal.load(l)},
-                                            geometric_normal.load(l), wo.load(l), true);
-        const PlainMetallicRoughness<Wide> lobe{base.load(l), metallic.load(l), alpha.load(l), f0.load(l), f90.load(l)};
+        const OrientedSurface<Wide> oriented = surface(l);
         const auto [value, sample] =
-            lobe.evaluate_and_sample(surface.leaning, surface.seen_from(), surface.frame.to_local(light_wi.load(l)),
-                                     u_lobe.load(l), u_bsdf.load(l));
+            lobe(l).evaluate_and_sample(oriented.leaning, oriented.seen_from(),
+                                        oriented.frame.to_local(light_wi.load(l)), u_lobe.load(l), u_bsdf.load(l));
         f_cos.store(l, value.f_cos);
         pdf.store(l, value.pdf_solid_angle);
-        next_direction.store(l, surface.frame.to_world(sample.wi));
+        next_direction.store(l, oriented.frame.to_world(sample.wi));
         next_weight.store(l, sample.weight);
         next_pdf.store(l, sample.pdf_solid_angle);
     }

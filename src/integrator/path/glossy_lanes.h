@@ -3,9 +3,11 @@
 #pragma once
 
 #include "bsdf/metallic_roughness.h"
+#include "bsdf/plain_metallic_roughness.h"
 #include "core/columns.h"
 #include "integrator/path/block_lanes.h"
 #include "wave/number_pairs.h"
+#include "world/oriented_surface.h"
 
 #include <cstddef>
 
@@ -50,10 +52,25 @@ struct GlossyLanes {
     /// Moves what is known of those paths [0, paths) of a block that are on gloss here, side by side. `choices` are
     /// their numbers for the choice of a lobe, x, `directions` for the direction.
     void take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices, const NumberPairs& directions);
+    /// Moves the directions to the lights of those that `take` has moved here, if they have others now.
+    void take_lights(const BlockLanes& lanes, std::size_t paths);
+    /// Evaluates the lobes of lanes [0, count), rounded up.
+    void evaluate(std::size_t count);
     /// Evaluates and samples the lobes of lanes [0, count), rounded up.
     void evaluate_and_sample(std::size_t count);
-    /// Moves values and samples back to the `paths` of `lanes` that are on gloss.
-    void give(BlockLanes& lanes, std::size_t paths) const;
+    /// Moves values back to the `paths` of `lanes` that are on gloss.
+    void give_values(BlockLanes& lanes, std::size_t paths) const;
+    /// Moves samples back to the `paths` of `lanes` that are on gloss.
+    void give_samples(BlockLanes& lanes, std::size_t paths) const;
+
+  private:
+    /// Returns the surfaces of lanes from `l` on, turned to `wo`.
+    [[nodiscard]] OrientedSurface<Wide> surface(std::size_t l) const {
+        return {{tangent.load(l), bitangent.load(l), normal.load(l)}, geometric_normal.load(l), wo.load(l), true};
+    }
+    [[nodiscard]] PlainMetallicRoughness<Wide> lobe(std::size_t l) const {
+        return {base.load(l), metallic.load(l), alpha.load(l), f0.load(l), f90.load(l)};
+    }
 };
 
 }  // namespace etendue

@@ -11,25 +11,25 @@ void PathBlock::draw_numbers(const PathContext& context, const WavePaths& wave) 
     const std::span indices(wave.index.data() + first, count);
     const bool has_bodies = context.world.traits().has_bodies;
     const bool ends =
-        context.depth >= context.settings.lengths.max_depth && !has_bodies && !context.world.traits().has_panes;
+        context.rays >= context.settings.lengths.max_depth && !has_bodies && !context.world.traits().has_panes;
     const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
         if (is_needed && !ends)
             numbers.draw(context.job.sequence, pixel_seeds, indices, dimension);
         else
             numbers.draw_none(count);
     };
-    if (has_bodies) draw(body_dimension(context.depth, kMedium), medium, context.world.traits().has_scattering_bodies);
+    if (has_bodies) draw(body_dimension(context.rays, kMedium), medium, context.world.traits().has_scattering_bodies);
     if (context.samples_lights() && context.world.traits().has_sampled_lights && !ends)
         draw_light_numbers(context, wave, 0);
-    draw(bounce_dimension(context.depth, kBsdfDirection), bsdf_direction);
-    draw(bounce_dimension(context.depth, kChoices), choices);
+    draw(bounce_dimension(context.rays, kBsdfDirection), bsdf_direction);
+    draw(bounce_dimension(context.rays, kChoices), choices);
 }
 
 void PathBlock::draw_light_numbers(const PathContext& context, const WavePaths& wave, std::uint32_t round) {
     std::span pixel_seeds(wave.pixel_seed.data() + first, count);
     std::span indices(wave.index.data() + first, count);
-    std::array<std::uint32_t, kSize> split_seeds;
-    std::array<std::uint32_t, kSize> split_indices;
+    std::array<std::uint32_t, kBlockLanes> split_seeds;
+    std::array<std::uint32_t, kBlockLanes> split_indices;
     if (context.settings.light_samples > 1) {
         for (std::size_t k = 0; k < count; ++k) {
             const SampleKey key = wave.light_sample_key(context, first + k, round);
@@ -40,7 +40,7 @@ void PathBlock::draw_light_numbers(const PathContext& context, const WavePaths& 
         indices = std::span(split_indices).first(count);
     }
     const auto draw = [&](BounceDimension which, NumberPairs& numbers) {
-        numbers.draw(context.job.sequence, pixel_seeds, indices, bounce_dimension(context.depth, which));
+        numbers.draw(context.job.sequence, pixel_seeds, indices, bounce_dimension(context.rays, which));
     };
     if (context.world.traits().chooses_lights)
         draw(kLightChoice, light_choice);

@@ -49,24 +49,20 @@ struct PanePassage {
 /// Holds what the stages of shading a block of paths tell each other. Path `k` of the block is path `first` + `k` of
 /// the wave, and has lane `k` of `lanes`.
 struct PathBlock {
-    /// Counts the paths that go from one stage of shading to the next together: what lies between the stages stays in
-    /// the first-level cache.
-    static constexpr std::size_t kSize = kBlockLanes;
-
     std::size_t first = 0;  ///< the block's first path, in the wave
     std::size_t count = 0;  ///< paths in the block
     NumberPairs light_choice, light_triangle, light_direction, bsdf_direction;
     NumberPairs choices;  ///< x: which lobe, y: whether the path ends
     NumberPairs medium;   ///< x: how far, y: by which channel
-    std::array<ShadedPath, kSize> paths{};
-    std::vector<SingleShading> singles{kSize};
-    std::vector<PanePassage> panes;           ///< only if the World has panes
-    std::array<ChosenLight, kSize> lights{};  ///< light samples outside the lanes, by path
-    LaneList escaped;                         ///< paths that have left the scene
-    LaneList on_emitter, on_hidden;           ///< paths on surfaces that emit, on hidden boundaries
-    LaneList on_surface;                      ///< paths on surfaces that may scatter them
-    LaneList sampling;                        ///< paths of `on_surface` that sample lights
-    LaneList on_texture, on_gloss;            ///< paths on textured plain surfaces, in GlossyLanes
+    std::array<ShadedPath, kBlockLanes> paths{};
+    std::vector<SingleShading> singles{kBlockLanes};
+    std::vector<PanePassage> panes;                 ///< only if the World has panes
+    std::array<ChosenLight, kBlockLanes> lights{};  ///< light samples outside the lanes, by path
+    LaneList escaped;                               ///< paths that have left the scene
+    LaneList on_emitter, on_hidden;                 ///< paths on surfaces that emit, on hidden boundaries
+    LaneList on_surface;                            ///< paths on surfaces that may scatter them
+    LaneList sampling;                              ///< paths of `on_surface` that sample lights
+    LaneList on_texture, on_gloss;                  ///< paths on textured plain surfaces, in GlossyLanes
     BlockLanes lanes;
 
     /// Draws the numbers of the block's paths for a bounce, many at a time.

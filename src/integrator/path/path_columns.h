@@ -20,7 +20,7 @@ namespace path_history {
 /// medium where no lights are sampled, or the eye.
 inline constexpr std::uint32_t kUnsampled = 1u;
 /// Every scattering was a delta: the eye sees this directly or in mirrors.
-inline constexpr std::uint32_t kOnlyDelta = 2u;
+inline constexpr std::uint32_t kOnlyDeltas = 2u;
 /// Every scattering but the last was a delta: what the path meets lights what the eye sees directly or in mirrors.
 inline constexpr std::uint32_t kIsDirect = 4u;
 /// Adds one to the edges of the path when its ray has hit, which the bits above the flags count. Media, panes and
@@ -28,23 +28,23 @@ inline constexpr std::uint32_t kIsDirect = 4u;
 inline constexpr std::uint32_t kOneEdge = 8u;
 inline constexpr std::uint32_t kFlags = kOneEdge - 1u;
 
-inline constexpr std::uint32_t kAtEye = kOneEdge | kUnsampled | kOnlyDelta | kIsDirect;
+inline constexpr std::uint32_t kAtEye = kOneEdge | kUnsampled | kOnlyDeltas | kIsDirect;
 
 [[nodiscard]] constexpr int edges(std::uint32_t history) {
     return static_cast<int>(history / kOneEdge);
 }
 /// Returns true if the eye sees what the path's ray meets, through panes at most.
 [[nodiscard]] constexpr bool is_seen(std::uint32_t history) {
-    return edges(history) == 1 && (history & kOnlyDelta) != 0;
+    return edges(history) == 1 && (history & kOnlyDeltas) != 0;
 }
 /// Returns the history after a scattering that was no delta, `edges` edges on.
 template <typename Bits>
 [[nodiscard]] Bits after_lobe(Bits history, std::uint32_t edges) {
-    return ((history & Bits(~kFlags)) + Bits(edges * kOneEdge)) | ((history & Bits(kOnlyDelta)) << 1);
+    return ((history & Bits(~kFlags)) + Bits(edges * kOneEdge)) | ((history & Bits(kOnlyDeltas)) << 1);
 }
 [[nodiscard]] constexpr std::uint32_t after_delta(std::uint32_t history) {
-    const std::uint32_t only_delta = history & kOnlyDelta;
-    return ((history & ~kFlags) + kOneEdge) | (only_delta << 1) | only_delta | kUnsampled;
+    const std::uint32_t only_deltas = history & kOnlyDeltas;
+    return ((history & ~kFlags) + kOneEdge) | (only_deltas << 1) | only_deltas | kUnsampled;
 }
 
 }  // namespace path_history
@@ -102,7 +102,7 @@ struct PathColumns {
     BasicRgbColumns<kSize> throughput;
     /// Product of eta² over the refractions so far: what radiance scaling took from the throughput and Russian roulette
     /// must not see.
-    BasicColumn<kSize> eta_scale;
+    BasicColumn<kSize> roulette_scale;
     BasicColumn<kSize> pdf_solid_angle;  ///< 1/sr, of the ray's direction; not meaningful after a delta
     BasicColumn<kSize> wavelength_nm;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     BasicColumn<kSize> cone_width, cone_spread;  ///< around the ray; followed only where there are textures to filter
@@ -130,7 +130,7 @@ struct PathColumns {
         }
         for (std::size_t i = 0; i < rays.size(); i += Wide::kWidth) {
             throughput.store(i, BasicRgb<Wide>(Wide(1.0f)));
-            eta_scale.store(i, Wide(1.0f));
+            roulette_scale.store(i, Wide(1.0f));
             pdf_solid_angle.store(i, Wide(0.0f));
             wavelength_nm.store(i, Wide(0.0f));
             history.store(i, WideBits(path_history::kAtEye));
@@ -143,7 +143,6 @@ struct PathColumns {
         cone_width.set(i, cone.width);
         cone_spread.set(i, cone.spread);
     }
-    void multiply_throughput(std::size_t i, const Rgb& by) { throughput.set(i, throughput[i] * by); }
     [[nodiscard]] bool is(std::uint32_t flag, std::size_t i) const { return (history[i] & flag) != 0; }
     /// Returns the lanes that have `flag` among the `Wide` of paths from `first` on.
     [[nodiscard]] WideMask are(std::uint32_t flag, std::size_t first) const {

@@ -12,7 +12,7 @@ struct PathContext {
     const World& world;
     const TileJob& job;
     const IntegratorSettings& settings;
-    int depth;  ///< rays that each path has traced; its edges, if the World has no bodies
+    int rays;  ///< rays that each path has traced; its edges, if the World has no bodies
 
     /// Returns true if paths sample lights, and do not find them by chance only.
     [[nodiscard]] bool samples_lights() const { return settings.light_samples > 0; }

@@ -59,9 +59,30 @@ LightReceiver PathLight::make_receiver(std::size_t k) const {
 
 void PathLight::sample(const PathContext& context, const LaneList& paths, std::uint32_t round) {
     if (paths.empty()) return;
+    LightChoices chosen;
+    choose_lights(context, paths, round, chosen);
+    if (!chosen.by_mesh.empty()) sample_meshes(paths, chosen);
+    if (!chosen.by_environment.empty()) sample_environment(context.world, paths, chosen);
+    for (const std::size_t place : chosen.singly) {
+        const std::size_t k = paths[place];
+        make_in_place(block_.lights[k], [&] {
+            return context.world.lights().sample(chosen.choices[place], block_.lanes.position[k],
+                                                 block_.light_numbers(k));
+        });
+    }
+    // What is where those who ask next do not look for it.
+    for (const std::size_t place : chosen.by_mesh)
+        if (const std::size_t k = paths[place]; !block_.paths[k].is_wide) take_from_lanes(k);
+    for (const LaneList* list : {&chosen.by_environment, &chosen.singly})
+        for (const std::size_t place : *list)
+            if (const std::size_t k = paths[place]; block_.paths[k].is_wide) put_into_lanes(k);
+}
+
+void PathLight::choose_lights(const PathContext& context, const LaneList& paths, std::uint32_t round,
+                              LightChoices& chosen) {
     const World& world = context.world;
     const std::size_t count = paths.size();
-    std::array<Vec2f, PathBlock::kSize> u;
+    std::array<Vec2f, kBlockLanes> u;
     for (std::size_t place = 0; place < count; ++place) {
         const std::size_t k = paths[place];
         if (!paths_.receivers.empty()) {
@@ -70,67 +91,56 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
         }
         u[place] = block_.light_choice[k];
     }
-    std::array<LightTree::Choice, PathBlock::kSize> choices;
     world.lights().choose(std::span(receivers_).first(count), std::span(u).first(count),
-                          std::span(choices).first(count));
+                          std::span(chosen.choices).first(count));
     if (context.settings.light_samples > 1)
         for (std::size_t place = 0; place < count; ++place)
-            share_estimate(choices[place],
-                           paths_.light_samples(context, block_.first + paths[place], path_history::kOnlyDelta));
-    // Places among the paths, by how their lights are sampled.
-    LaneList by_mesh;
-    LaneList by_environment;
-    LaneList singly;
-    std::array<const MeshLight*, PathBlock::kSize> meshes;
-    std::array<Vec3f, PathBlock::kSize> points;
+            share_estimate(chosen.choices[place],
+                           paths_.light_samples(context, block_.first + paths[place], path_history::kOnlyDeltas));
     for (std::size_t place = 0; place < count; ++place) {
-        const std::size_t k = paths[place];
-        const std::uint32_t light = block_.paths[k].light = choices[place].light;
-        meshes[place] = world.lights().even_mesh(light);
-        points[place] = block_.lanes.position[k];
-        u[place] = block_.light_triangle[k];
-        const bool is_mesh = meshes[place] != nullptr;
+        const std::uint32_t light = block_.paths[paths[place]].light = chosen.choices[place].light;
+        chosen.meshes[place] = world.lights().even_mesh(light);
+        const bool is_mesh = chosen.meshes[place] != nullptr;
         const bool is_environment = light == world.environment().light();
-        by_mesh.add_if(is_mesh, place);
-        by_environment.add_if(is_environment, place);
-        singly.add_if(!is_mesh && !is_environment, place);
+        chosen.by_mesh.add_if(is_mesh, place);
+        chosen.by_environment.add_if(is_environment, place);
+        chosen.singly.add_if(!is_mesh && !is_environment, place);
     }
-    std::array<MeshLight::TriangleChoice, PathBlock::kSize> triangles;
-    MeshLight::choose_triangles(std::span(meshes).first(count), points, u, triangles);
-    for (const std::size_t place : by_mesh) {
+}
+
+void PathLight::sample_meshes(const LaneList& paths, const LightChoices& chosen) {
+    const std::size_t count = paths.size();
+    std::array<Vec3f, kBlockLanes> points;
+    std::array<Vec2f, kBlockLanes> u;
+    for (std::size_t place = 0; place < count; ++place) {
+        points[place] = block_.lanes.position[paths[place]];
+        u[place] = block_.light_triangle[paths[place]];
+    }
+    std::array<MeshLight::TriangleChoice, kBlockLanes> triangles;
+    MeshLight::choose_triangles(std::span(chosen.meshes).first(count), points, u, triangles);
+    for (const std::size_t place : chosen.by_mesh) {
         const std::size_t k = paths[place];
-        const MeshLight& mesh = *meshes[place];
+        const MeshLight& mesh = *chosen.meshes[place];
         block_.lanes.front.set(k, mesh, triangles[place]);
-        block_.lanes.expected_samples.set(k, choices[place].probability);
+        block_.lanes.expected_samples.set(k, chosen.choices[place].probability);
         block_.lanes.light_radiance.set(k, mesh.radiance());
     }
-    if (!by_mesh.empty()) {
-        for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
-            block_.lanes.u_light.store(l, block_.light_direction.load(l));
-        block_.lanes.sample_mesh_lights(block_.count);
+    for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
+        block_.lanes.u_light.store(l, block_.light_direction.load(l));
+    block_.lanes.sample_mesh_lights(block_.count);
+}
+
+void PathLight::sample_environment(const World& world, const LaneList& paths, const LightChoices& chosen) {
+    const std::size_t count = chosen.by_environment.size();
+    std::array<Vec2f, kBlockLanes> u;
+    for (std::size_t i = 0; i < count; ++i) u[i] = block_.light_direction[paths[chosen.by_environment[i]]];
+    world.environment().sample_light(std::span(u).first(count), std::span(environment_samples_).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const LightTree::Choice& choice = chosen.choices[chosen.by_environment[i]];
+        ChosenLight& light = block_.lights[paths[chosen.by_environment[i]]];
+        light = {environment_samples_[i], choice.probability, choice.light};
+        light.sample.pdf_solid_angle *= choice.probability;
     }
-    if (!by_environment.empty()) {
-        const std::size_t samples = by_environment.size();
-        for (std::size_t i = 0; i < samples; ++i) u[i] = block_.light_direction[paths[by_environment[i]]];
-        world.environment().sample_light(std::span(u).first(samples), std::span(environment_samples_).first(samples));
-        for (std::size_t i = 0; i < samples; ++i) {
-            const LightTree::Choice& choice = choices[by_environment[i]];
-            ChosenLight& light = block_.lights[paths[by_environment[i]]];
-            light = {environment_samples_[i], choice.probability, choice.light};
-            light.sample.pdf_solid_angle *= choice.probability;
-        }
-    }
-    for (const std::size_t place : singly) {
-        const std::size_t k = paths[place];
-        make_in_place(block_.lights[k],
-                      [&] { return world.lights().sample(choices[place], points[place], block_.light_numbers(k)); });
-    }
-    // What is where those who ask next do not look for it.
-    for (const std::size_t place : by_mesh)
-        if (const std::size_t k = paths[place]; !block_.paths[k].is_wide) take_from_lanes(k);
-    for (const LaneList* list : {&by_environment, &singly})
-        for (const std::size_t place : *list)
-            if (const std::size_t k = paths[place]; block_.paths[k].is_wide) put_into_lanes(k);
 }
 
 void PathLight::take_from_lanes(std::size_t k) {
@@ -148,7 +158,7 @@ void PathLight::put_into_lanes(std::size_t k) {
     block_.lanes.light_wi.set(k, light.wi);
     block_.lanes.light_distance.set(k, light.distance);
     block_.lanes.light_end.set(k, light.end);
-    block_.lanes.light_pdf.set(k, light.is_delta ? block_.lights[k].expected_samples : light.pdf_solid_angle);
+    block_.lanes.light_pdf.set(k, block_.lights[k].density());
     block_.lanes.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
     block_.lanes.light_radiance.set(k, light.radiance);
 }
@@ -163,22 +173,21 @@ void PathLight::add_environment(const PathContext& context) {
     const World& world = context.world;
     const bool is_shown = !world.environment().met(true).empty();
     LaneList meeting;
-    std::array<Vec3f, PathBlock::kSize> directions;
+    std::array<Vec3f, kBlockLanes> directions;
     for (const std::size_t k : block_.escaped) {
         if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
             // A path without light has met a shadow catcher, which has given it its alpha.
             if (!is_black(paths_.throughput[block_.first + k])) alpha_[paths_.slot[block_.first + k]] = 0.0f;
             continue;
         }
-        if (!world.traits().has_environment || paths_.edges(block_.first + k) < context.settings.lengths.min_depth)
+        if (!world.traits().has_environment || !context.settings.lengths.is_long_enough(paths_.edges(block_.first + k)))
             continue;
         directions[meeting.size()] = paths_.direction[block_.first + k];
         meeting.add(k);
     }
     if (meeting.empty()) return;
-    if (context.job.profile != nullptr && context.depth > 1)
-        context.job.profile->use().bsdf_met_light += meeting.size();
-    std::array<EnvironmentRadiance, PathBlock::kSize> met;
+    if (context.job.profile != nullptr && context.rays > 1) context.job.profile->use().bsdf_met_light += meeting.size();
+    std::array<EnvironmentRadiance, kBlockLanes> met;
     world.environment().look(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
     for (std::size_t m = 0; m < meeting.size(); ++m) {
         const std::size_t i = block_.first + meeting[m];
@@ -195,7 +204,7 @@ void PathLight::add_suns(const PathContext& context) {
             const std::size_t i = block_.first + k;
             const float pdf = world.environment().pdf_solid_angle(light, paths_.direction[i]);
             if (!(pdf > 0.0f) || path_history::is_seen(paths_.history[i]) ||
-                paths_.edges(i) < context.settings.lengths.min_depth)
+                !context.settings.lengths.is_long_enough(paths_.edges(i)))
                 continue;
             if (context.job.profile != nullptr) ++context.job.profile->use().bsdf_met_light;
             add(i, world.environment().radiance(light, paths_.direction[i]) * weight_from_afar(context, i, light, pdf),
@@ -215,15 +224,15 @@ float PathLight::weight_from_afar(const PathContext& context, std::size_t i, std
 void PathLight::add_emission(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     const SurfacePoint& point = block_.singles[k].point;
-    if (paths_.edges(i) < context.settings.lengths.min_depth) return;
-    if (context.depth == 1 && lamps_.finds(paths_.hits[i])) return;
-    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) > 1 &&
+    if (!context.settings.lengths.is_long_enough(paths_.edges(i))) return;
+    if (context.rays == 1 && lamps_.finds_emission(paths_.hits[i])) return;
+    if (paths_.is(path_history::kOnlyDeltas, i) && paths_.edges(i) > 1 &&
         lamps_.finds_image(paths_.samples[paths_.slot[i]]))
         return;
     const Vec3f direction = paths_.direction[i];
     const Rgb emitted = context.world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
-    if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
+    if (context.job.profile != nullptr && context.rays > 1) ++context.job.profile->use().bsdf_met_light;
     float weight = 1.0f;
     if (const std::uint32_t samples = paths_.samples_of_met_light(context, i); samples > 0)
         weight = met_light_weight(paths_.pdf_solid_angle[i],
@@ -233,20 +242,20 @@ void PathLight::add_emission(const PathContext& context, std::size_t k) {
     add(i, emitted * weight, paths_.words.surface_source(point));
 }
 
-void PathLight::queue(const PathContext& context, const LaneList& paths, std::uint32_t round) {
+void PathLight::queue_shadow_rays(const PathContext& context, const LaneList& paths, std::uint32_t round) {
     block_.lanes.weigh_light(block_.count, paths_, block_.first);
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += paths.size();
     if (paths_.words.are_followed() || context.world.traits().has_bodies) {
         for (const std::size_t k : paths)
-            if (block_.paths[k].is_wide && block_.lanes.arrives[k] != 0.0f) queue_by_lanes(context, k, round);
+            if (block_.paths[k].is_wide && block_.lanes.arrives[k] != 0.0f) queue_lane(context, k, round);
     } else {
-        queue_by_lanes(context, round);
+        queue_all_lanes(context, round);
     }
     for (const std::size_t k : paths)
         if (!block_.paths[k].is_wide) queue_singly(context, k, round);
 }
 
-void PathLight::queue_by_lanes(const PathContext& context, std::uint32_t round) {
+void PathLight::queue_all_lanes(const PathContext& context, std::uint32_t round) {
     const bool has_transparency = context.world.traits().has_transparency;
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
         const std::size_t i = block_.first + l;
@@ -262,7 +271,7 @@ void PathLight::queue_by_lanes(const PathContext& context, std::uint32_t round) 
              .alpha_key = WideBits::load(alpha_keys.data()),
              .slot = paths_.slot.load(i),
              .contribution = block_.lanes.contribution.load(l),
-             .is_direct = paths_.are(path_history::kOnlyDelta, i)},
+             .is_direct = paths_.are(path_history::kOnlyDeltas, i)},
             block_.lanes.arrives.load(l) != Wide(0.0f) && block_.lanes.is_wide.load(l) != Wide(0.0f));
     }
 }
@@ -279,15 +288,16 @@ void PathLight::queue_singly(const PathContext& context, std::size_t k, std::uin
                                                                path.crossing ? beyond(*path.crossing, point, light.wi)
                                                                              : paths_.interiors[block_.first + k],
                                                                light.distance);
-    queue(context, k, round,
-          shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
-          contribution, block_.paths[k].light,
-          paths_.words.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
-                                                      paths_.words.label(context.world, point))
-                                      : VertexEvent{});
+    queue_shadow_ray(
+        context, k, round,
+        shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
+        contribution, block_.paths[k].light,
+        paths_.words.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
+                                                    paths_.words.label(context.world, point))
+                                    : VertexEvent{});
 }
 
-void PathLight::queue_by_lanes(const PathContext& context, std::size_t k, std::uint32_t round) {
+void PathLight::queue_lane(const PathContext& context, std::size_t k, std::uint32_t round) {
     Rgb contribution = block_.lanes.contribution[k];
     if (context.world.traits().has_bodies)
         contribution *=
@@ -296,15 +306,16 @@ void PathLight::queue_by_lanes(const PathContext& context, std::size_t k, std::u
     ray.origin = block_.lanes.shadow_origin[k];
     ray.direction = block_.lanes.shadow_direction[k];
     ray.t_max = block_.lanes.shadow_t_max[k];
-    queue(context, k, round, ray, contribution, block_.paths[k].light,
-          paths_.words.are_followed() ? block_.wide_event(context.world, paths_.words, k, block_.lanes.light_wi[k])
-                                      : VertexEvent{});
+    queue_shadow_ray(context, k, round, ray, contribution, block_.paths[k].light,
+                     paths_.words.are_followed()
+                         ? block_.wide_event(context.world, paths_.words, k, block_.lanes.light_wi[k])
+                         : VertexEvent{});
 }
 
 LightNumbers PathLight::draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const {
     const SampleKey key = paths_.light_sample_key(context, block_.first + k, round);
     const auto draw = [&](BounceDimension which) {
-        return sample_2d(context.job.sequence, key, bounce_dimension(context.depth, which));
+        return sample_2d(context.job.sequence, key, bounce_dimension(context.rays, which));
     };
     return {draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
 }
@@ -312,7 +323,7 @@ LightNumbers PathLight::draw_numbers(const PathContext& context, std::size_t k, 
 void PathLight::queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
                                 const HomogeneousMedium& medium) {
     const std::size_t i = block_.first + k;
-    const std::uint32_t samples = paths_.light_samples(context, i, path_history::kOnlyDelta);
+    const std::uint32_t samples = paths_.light_samples(context, i, path_history::kOnlyDeltas);
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += samples;
     for (std::uint32_t round = 0; round < samples; ++round) {
         const LightNumbers numbers = round == 0 ? block_.light_numbers(k) : draw_numbers(context, k, round);
@@ -322,10 +333,10 @@ void PathLight::queue_in_medium(const PathContext& context, std::size_t k, const
         const LightSample& light = chosen.sample;
         if (is_black(light.radiance)) continue;
         const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);
-        queue(context, k, round, shadow_ray(position, light),
-              paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
-                  (phase * light_sample_scale(chosen, phase)),
-              chosen.light, VertexEvent{});
+        queue_shadow_ray(context, k, round, shadow_ray(position, light),
+                         paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
+                             (phase * light_sample_scale(chosen, phase)),
+                         chosen.light, VertexEvent{});
     }
 }
 
@@ -336,8 +347,8 @@ void PathLight::add(std::size_t i, const Rgb& light, const AovSet::Source& sourc
     found_.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
 }
 
-void PathLight::queue(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
-                      std::uint32_t light, const VertexEvent& event) {
+void PathLight::queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray,
+                                 const Rgb& contribution, std::uint32_t light, const VertexEvent& event) {
     if (is_black(contribution)) return;
     const std::size_t i = block_.first + k;
     shares_.clear();
@@ -346,7 +357,7 @@ void PathLight::queue(const PathContext& context, std::size_t k, std::uint32_t r
     ray.time = paths_.time[i];
     ray.alpha_key = paths_.shadow_alpha_key(context, block_.first + k, round);
     shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
-                           paths_.is(path_history::kOnlyDelta, i) ? LightKind::Direct : LightKind::Indirect, shares_);
+                           paths_.is(path_history::kOnlyDeltas, i) ? LightKind::Direct : LightKind::Indirect, shares_);
 }
 
 std::size_t PathLight::bytes() const {

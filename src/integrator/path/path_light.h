@@ -4,8 +4,8 @@
 #include "core/rgb.h"
 #include "integrator/path/path_block.h"
 #include "wave/aov/sample_light.h"
-#include "wave/connections.h"
 #include "wave/lamps_in_view.h"
+#include "wave/shadow_ray_queue.h"
 
 #include <array>
 #include <cstddef>
@@ -55,7 +55,7 @@ class PathLight {
     /// Evaluates the BSDF of path `k`, which is not wide, towards its light sample.
     void evaluate(std::size_t k);
     /// Queues shadow rays from `paths` to the lights that the block has sampled.
-    void queue(const PathContext& context, const LaneList& paths, std::uint32_t round);
+    void queue_shadow_rays(const PathContext& context, const LaneList& paths, std::uint32_t round);
     /// Samples all lights of path `k`, which `medium` has scattered at `position`, and queues the shadow rays.
     void queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
                          const HomogeneousMedium& medium);
@@ -63,6 +63,19 @@ class PathLight {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    /// Says which lights some paths sample; those paths are known by their places among themselves.
+    struct LightChoices {
+        std::array<LightTree::Choice, kBlockLanes> choices;
+        std::array<const MeshLight*, kBlockLanes> meshes;  ///< null where the light is no even mesh light
+        LaneList by_mesh, by_environment, singly;          ///< places, by how the light is sampled
+    };
+
+    /// Chooses a light for each of `paths`.
+    void choose_lights(const PathContext& context, const LaneList& paths, std::uint32_t round, LightChoices& chosen);
+    /// Samples the even mesh lights that are chosen for some of `paths`.
+    void sample_meshes(const LaneList& paths, const LightChoices& chosen);
+    /// Samples the environment where it is chosen for some of `paths`.
+    void sample_environment(const World& world, const LaneList& paths, const LightChoices& chosen);
     /// Returns the weight of what path `i` has met of `light`, infinitely far away, whose samples pick its direction
     /// with this density.
     [[nodiscard]] float weight_from_afar(const PathContext& context, std::size_t i, std::uint32_t light,
@@ -73,22 +86,22 @@ class PathLight {
     void take_from_lanes(std::size_t k);
     void put_into_lanes(std::size_t k);
     void queue_singly(const PathContext& context, std::size_t k, std::uint32_t round);
-    void queue_by_lanes(const PathContext& context, std::size_t k, std::uint32_t round);
+    void queue_lane(const PathContext& context, std::size_t k, std::uint32_t round);
     /// Queues the shadow rays of all paths that are wide, at once, where no words are followed and there are no bodies.
-    void queue_by_lanes(const PathContext& context, std::uint32_t round);
+    void queue_all_lanes(const PathContext& context, std::uint32_t round);
     /// Draws the numbers for the `round`-th light sample of path `k` alone.
     [[nodiscard]] LightNumbers draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const;
     /// Queues `ray` of path `k` towards `light` with its `contribution`; `event` is how the vertex scatters towards
     /// that light.
-    void queue(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
-               std::uint32_t light, const VertexEvent& event);
+    void queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray,
+                          const Rgb& contribution, std::uint32_t light, const VertexEvent& event);
 
     WavePaths& paths_;
     PathBlock& block_;
-    std::array<LightSample, PathBlock::kSize> environment_samples_{};  ///< light samples of the environment
-    std::array<LightReceiver, PathBlock::kSize> receivers_;            ///< what lights are chosen for, side by side
-    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the contribution at hand
-    Connections shadow_rays_{RayKind::Shadow};
+    std::array<LightSample, kBlockLanes> environment_samples_{};  ///< light samples of the environment
+    std::array<LightReceiver, kBlockLanes> receivers_;            ///< what lights are chosen for, side by side
+    std::vector<ExpressionShare> shares_;                         ///< shares of expressions in the contribution at hand
+    ShadowRayQueue shadow_rays_{RayKind::Shadow};
     LampsInView lamps_;
     // By slot, that is, by camera sample.
     SampleLight found_;

@@ -1,6 +1,7 @@
 #include "integrator/path/path_places.h"
 
 #include "core/in_place.h"
+#include "transport/bodies.h"
 
 #include <cmath>
 
@@ -37,13 +38,9 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     set_up_singly(context, k);
     SurfacePoint& point = block_.singles[k].point;
-    if (world.traits().has_bodies && world.media().is_boundary(point))
-        block_.singles[k].crossing.emplace(InPlace{[&] {
-            return paths_.hits[i].in_contact
-                       ? world.media().contact_crossing(point, paths_.interiors[i], paths_.hits[i], paths_.ray(i),
-                                                        paths_.cone(i))
-                       : world.media().crossing(point, paths_.interiors[i]);
-        }});
+    if (world.traits().has_bodies)
+        block_.singles[k].crossing =
+            crossing_at(world, point, {paths_.ray(i), paths_.interiors[i], paths_.hits[i], paths_.cone(i)});
     if (point.material->is_pane) block_.panes[k] = {paths_.receiver(i), paths_.metres_passed(i) + paths_.hits[i].t};
     block_.on_emitter.add_if(point.material->emits, k);
     if (block_.singles[k].crossing && block_.singles[k].crossing->is_hidden) {
@@ -53,7 +50,7 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
     }
     if (!point.material->unlit) return true;
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.settings.lengths.min_depth)
+    if (paths_.is(path_history::kOnlyDeltas, i) && context.settings.lengths.is_long_enough(paths_.edges(i)))
         light_.add(i, world.materials().unlit_color(point), paths_.words.surface_source(point));
     paths_.end_path(context, block_.first + k, PathEnding::Unlit);
     return false;
@@ -125,9 +122,7 @@ void PathPlaces::make_scattering(const PathContext& context) {
         }
         block_.lanes.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
         block_.on_gloss.add_if(path.glossy != nullptr, k);
-        const int edges = paths_.edges(block_.first + k) + 1;
-        block_.sampling.add_if(samples_lights && edges >= context.settings.lengths.min_depth &&
-                                   edges <= context.settings.lengths.max_depth &&
+        block_.sampling.add_if(samples_lights && context.settings.lengths.keeps(paths_.edges(block_.first + k) + 1) &&
                                    (path.is_wide || block_.singles[k].scattering->has_non_delta()),
                                k);
     }
@@ -156,7 +151,7 @@ void PathPlaces::make_scattering_singly(const PathContext& context, std::size_t 
     single.chooses_wavelength = crossing && crossing->disperses() && paths_.wavelength_nm[i] == 0.0f;
     if (single.chooses_wavelength)
         single.wavelength = world.spectral_response().sample(
-            sample_2d(context.job.sequence, paths_.key(i), body_dimension(context.depth, kWavelength)).x);
+            sample_2d(context.job.sequence, paths_.key(i), body_dimension(context.rays, kWavelength)).x);
     const Bsdf& bsdf = world.materials().bsdf(point, wo, crossing ? crossing->relative_ior(single.wavelength.nm) : 0.0f,
                                               single.storage);
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);

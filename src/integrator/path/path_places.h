@@ -42,7 +42,7 @@ class PathPlaces {
     PathLight& light_;
     PathScattering& scattering_;
     TexturedLanes textured_;
-    std::array<MetallicRoughness, PathBlock::kSize> textured_lobes_{};
+    std::array<MetallicRoughness, kBlockLanes> textured_lobes_{};
     PlainLookups lookups_;
 };
 

@@ -8,19 +8,27 @@
 
 namespace etendue {
 
-void PathScattering::evaluate_and_sample_matte() {
+void PathScattering::evaluate_and_sample_by_lanes() {
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
         block_.lanes.u_bsdf.store(l, block_.bsdf_direction.load(l));
     block_.lanes.evaluate_and_sample_matte(block_.count);
+    if (!block_.on_gloss.empty()) {
+        for (std::size_t g = 0; g < block_.on_gloss.size(); ++g)
+            glossy_.set_lobe(g, *block_.paths[block_.on_gloss[g]].glossy);
+        glossy_.take(block_.lanes, block_.count, block_.choices, block_.bsdf_direction);
+        glossy_.evaluate_and_sample(block_.on_gloss.size());
+        glossy_.give_values(block_.lanes, block_.count);
+        glossy_.give_samples(block_.lanes, block_.count);
+    }
+    block_.lanes.set_next_origins(block_.count);
 }
 
-void PathScattering::evaluate_and_sample_glossy() {
+void PathScattering::evaluate_by_lanes() {
+    block_.lanes.evaluate_matte(block_.count);
     if (block_.on_gloss.empty()) return;
-    for (std::size_t g = 0; g < block_.on_gloss.size(); ++g)
-        glossy_.set_lobe(g, *block_.paths[block_.on_gloss[g]].glossy);
-    glossy_.take(block_.lanes, block_.count, block_.choices, block_.bsdf_direction);
-    glossy_.evaluate_and_sample(block_.on_gloss.size());
-    glossy_.give(block_.lanes, block_.count);
+    glossy_.take_lights(block_.lanes, block_.count);
+    glossy_.evaluate(block_.on_gloss.size());
+    glossy_.give_values(block_.lanes, block_.count);
 }
 
 void PathScattering::sample_bsdf(std::size_t k) {
@@ -70,7 +78,7 @@ void PathScattering::bend_cone(const World& world, std::size_t k, const RayCone&
 void PathScattering::bend_cones(const World& world) {
     // All as if their lobes were wide; then once more those whose are not.
     LaneList narrow;
-    std::array<RayCone, PathBlock::kSize> arriving;
+    std::array<RayCone, kBlockLanes> arriving;
     for (const std::size_t k : block_.on_surface) {
         if (!block_.paths[k].is_wide) continue;
         arriving[k] = paths_.arriving_cone(block_.first + k);
@@ -98,7 +106,6 @@ bool PathScattering::scatter_at_surface(const PathContext& context, std::size_t 
         paths_.end_path(context, block_.first + k, PathEnding::TooLong);
         return false;
     }
-    Rgb throughput = paths_.throughput[i] * sample.weight;
     paths_.pdf_solid_angle.set(i, sample.pdf_solid_angle);
     paths_.history.set(i, sample.is_delta ? path_history::after_delta(paths_.history[i])
                                           : path_history::after_lobe(paths_.history[i], 1));
@@ -107,15 +114,12 @@ bool PathScattering::scatter_at_surface(const PathContext& context, std::size_t 
     if (paths_.words.are_followed())
         paths_.follow(block_.first + k, surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance,
                                                       paths_.words.label(world, point)));
-    if (path.chooses_wavelength && mirrors_all_wavelengths(scattering, sample)) {
-        throughput *= world.spectral_response().mean_over_chance(
-            path.wavelength, [&](float nm) { return mirrored_share(scattering, path.crossing->relative_ior(nm)); });
-    } else {
-        throughput *= path.wavelength.weight;
-        paths_.wavelength_nm.set(i, path.wavelength.nm);
-    }
-    paths_.throughput.set(i, throughput);
-    if (sample.is_transmission) paths_.eta_scale.set(i, paths_.eta_scale[i] * (sample.eta * sample.eta));
+    const Wavelength after = wavelength_after(
+        scattering, path.crossing, sample, path.wavelength, path.chooses_wavelength,
+        [&](const auto& share) { return world.spectral_response().mean_over_chance(path.wavelength, share); });
+    paths_.throughput.set(i, paths_.throughput[i] * sample.weight * after.weight);
+    paths_.wavelength_nm.set(i, after.nm);
+    if (sample.is_transmission) paths_.roulette_scale.set(i, paths_.roulette_scale[i] * (sample.eta * sample.eta));
     paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi));
     paths_.direction.set(i, sample.wi);
     paths_.alpha_key.set(i, paths_.next_alpha_key(context, block_.first + k));
@@ -135,7 +139,7 @@ bool PathScattering::scatter_in_medium(const PathContext& context, std::size_t k
     const Vec3f wo = -paths_.direction[i];
     const Vec3f position = paths_.origin[i] - wo * sample.distance;
     const bool samples_lights = context.samples_lights() && context.world.traits().has_lights_in_media;
-    if (samples_lights && paths_.edges(i) >= context.settings.lengths.min_depth)
+    if (samples_lights && context.settings.lengths.is_long_enough(paths_.edges(i)))
         light_.queue_in_medium(context, k, position, *medium);
     const Vec3f direction = medium->phase.sample(wo, block_.bsdf_direction[k]);
     const float pdf_solid_angle = medium->phase.pdf_solid_angle(wo, direction);

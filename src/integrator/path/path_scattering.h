@@ -14,10 +14,11 @@ class PathScattering {
     PathScattering(WavePaths& paths, PathBlock& block, PathLight& light)
         : paths_(paths), block_(block), light_(light) {}
 
-    /// Evaluates towards light samples, and samples, the BSDFs of all paths that are wide and matte.
-    void evaluate_and_sample_matte();
-    /// Evaluates towards light samples, and samples, the BSDFs of all paths that are wide and glossy.
-    void evaluate_and_sample_glossy();
+    /// Evaluates the BSDFs of all paths that are wide towards their light samples, and samples where the paths go on:
+    /// both share what depends on the way back to the eye alone.
+    void evaluate_and_sample_by_lanes();
+    /// Evaluates the BSDFs of all paths that are wide towards another light sample each.
+    void evaluate_by_lanes();
     /// Samples the BSDF of path `k`, which is not wide.
     void sample_bsdf(std::size_t k);
 

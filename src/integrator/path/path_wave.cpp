@@ -23,20 +23,20 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     const std::span<Ray> camera_rays = std::span(camera_rays_).first(count);
     const std::span<CameraSample> samples = std::span(paths_.samples).first(count);
     generate_camera_rays(world, job, first, samples, camera_rays);
-    if (world.traits().has_panes) block_.panes.resize(PathBlock::kSize);
+    if (world.traits().has_panes) block_.panes.resize(kBlockLanes);
     light_.begin(job, count, counters);
     paths_.begin(world, job, camera_rays);
     active_ = count;
     stamp(job.profile, Stage::Generate);
-    for (int depth = 1; active_ > 0; ++depth) {
-        intersect_batch(world, job, depth == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
+    for (int rays = 1; active_ > 0; ++rays) {
+        intersect_batch(world, job, rays == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
                         std::span(paths_.hits).first(active_), counters);
-        if (depth == 1)
+        if (rays == 1)
             hide_unseen_hits(world, camera_rays, std::span(paths_.hits).first(count));
         else
             look_again(world, job, counters);
         light_.count_rays(active_);
-        if (depth == 1) {
+        if (rays == 1) {
             const std::span hits = std::span(paths_.hits).first(count);
             find_first_hits(world, job, samples, camera_rays, hits, tile);
             light_.lamps().note(samples, camera_rays, hits, counters);
@@ -44,7 +44,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
         }
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { light_.trace_shadow_rays(world, job, tile, counters); };
-        shade({world, job, settings, depth}, trace_shadow_rays);
+        shade({world, job, settings, rays}, trace_shadow_rays);
         trace_shadow_rays();
     }
     light_.finish(job, count, tile, counters);
@@ -81,39 +81,37 @@ void PathWave::catch_shadows(const World& world, const TileJob& job, std::size_t
 template <typename TraceShadowRays>
 void PathWave::shade(const PathContext& context, const TraceShadowRays& trace_shadow_rays) {
     std::size_t kept = 0;
-    for (std::size_t first = 0; first < active_; first += PathBlock::kSize) {
-        shade_block(context, first, std::min(PathBlock::kSize, active_ - first), kept);
+    for (std::size_t first = 0; first < active_; first += kBlockLanes) {
+        shade_block(context, first, std::min(kBlockLanes, active_ - first), kept);
         if (light_.has_full_batch()) trace_shadow_rays();
     }
     active_ = kept;
 }
 
 template <typename Stamp>
-void PathWave::sample_direct_light(const PathContext& context, const LaneList& paths, std::uint32_t round,
+void PathWave::queue_light_samples(const PathContext& context, const LaneList& paths, std::uint32_t round,
                                    const Stamp& stamp) {
-    light_.sample(context, paths, round);
-    stamp(Stage::LightSampling);
-    scattering_.evaluate_and_sample_matte();
-    scattering_.evaluate_and_sample_glossy();
     for (const std::size_t k : paths)
         if (!block_.paths[k].is_wide) light_.evaluate(k);
     stamp(Stage::Material);
-    light_.queue(context, paths, round);
+    light_.queue_shadow_rays(context, paths, round);
     stamp(Stage::Mis);
 }
 
 template <typename Stamp>
-void PathWave::sample_direct_light_in_rounds(const PathContext& context, const Stamp& stamp) {
-    sample_direct_light(context, block_.sampling, 0, stamp);
+void PathWave::take_more_light_samples(const PathContext& context, const Stamp& stamp) {
     if (context.settings.light_samples <= 1) return;
     LaneList split;
-    for (const std::size_t k : block_.sampling) split.add_if(paths_.is(path_history::kOnlyDelta, block_.first + k), k);
+    for (const std::size_t k : block_.sampling) split.add_if(paths_.is(path_history::kOnlyDeltas, block_.first + k), k);
     if (split.empty()) return;
     for (std::uint32_t round = 1; round < context.settings.light_samples; ++round) {
         block_.draw_light_numbers(context, paths_, round);
         block_.lanes.forget_light();
         stamp(Stage::Numbers);
-        sample_direct_light(context, split, round, stamp);
+        light_.sample(context, split, round);
+        stamp(Stage::LightSampling);
+        scattering_.evaluate_by_lanes();
+        queue_light_samples(context, split, round, stamp);
     }
 }
 
@@ -142,11 +140,13 @@ void PathWave::shade_block(const PathContext& context, std::size_t first, std::s
     places_.look_up_textures(context);
     places_.make_scattering(context);
     stamp(Stage::Textures);
-    sample_direct_light_in_rounds(context, stamp);
-    block_.lanes.set_next_origins(count);
+    light_.sample(context, block_.sampling, 0);
+    stamp(Stage::LightSampling);
+    scattering_.evaluate_and_sample_by_lanes();
     for (const std::size_t k : block_.on_surface)
         if (!block_.paths[k].is_wide) scattering_.sample_bsdf(k);
-    stamp(Stage::Material);
+    queue_light_samples(context, block_.sampling, 0, stamp);
+    take_more_light_samples(context, stamp);
     if (!paths_.passed.empty())
         for (const std::size_t k : block_.on_surface) paths_.passed[block_.first + k] = 0.0f;
     scattering_.scatter_by_lanes(context);
@@ -161,14 +161,15 @@ void PathWave::shade_block(const PathContext& context, std::size_t first, std::s
 
 void PathWave::keep_survivors(const PathContext& context, std::size_t& kept) {
     const World& world = context.world;
-    const bool is_spared = context.depth < first_roulette(world, context.settings.lengths.roulette_depth);
+    const bool is_spared = context.rays < first_roulette(world, context.settings.lengths.roulette_depth);
     BlockSurvivors survivors(block_.first, kept);
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
         const std::size_t i = block_.first + l;
         const BasicRgb<Wide> throughput = paths_.throughput.load(i);
         const Wide survival =
-            is_spared ? Wide(1.0f)
-                      : eye_path_survival(max_component<Wide>(throughput) * paths_.eta_scale.load(i), context.depth);
+            is_spared
+                ? Wide(1.0f)
+                : eye_path_survival(max_component<Wide>(throughput) * paths_.roulette_scale.load(i), context.rays);
         paths_.throughput.store(i, throughput * (Wide(1.0f) / survival));
         const WideMask goes_on = block_.lanes.goes_on.load(l) != Wide(0.0f);
         const WideMask survives = block_.choices.load(l).y < survival;

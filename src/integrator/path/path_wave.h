@@ -39,16 +39,16 @@ class PathWave final : public IntegratorScratch {
     /// batch.
     template <typename TraceShadowRays>
     void shade(const PathContext& context, const TraceShadowRays& trace_shadow_rays);
-    /// Advances paths [first, first + count), count <= PathBlock::kSize, stage by stage, and moves those that go on to
+    /// Advances paths [first, first + count), count <= kBlockLanes, stage by stage, and moves those that go on to
     /// where `kept` says.
     void shade_block(const PathContext& context, std::size_t first, std::size_t count, std::size_t& kept);
-    /// Takes a light sample for each of `paths`, on to its shadow ray. Lanes also sample the BSDF.
+    /// Queues the shadow rays of the `round`-th light samples of `paths`, whose BSDFs lanes have evaluated.
     template <typename Stamp>
-    void sample_direct_light(const PathContext& context, const LaneList& paths, std::uint32_t round,
+    void queue_light_samples(const PathContext& context, const LaneList& paths, std::uint32_t round,
                              const Stamp& stamp);
-    /// Takes all light samples of the block.
+    /// Takes all light samples of the block but the first, for paths that have more than one.
     template <typename Stamp>
-    void sample_direct_light_in_rounds(const PathContext& context, const Stamp& stamp);
+    void take_more_light_samples(const PathContext& context, const Stamp& stamp);
     /// Russian roulette for the paths of the block. Moves those that go on to where `kept` says, their throughput
     /// divided by their chance.
     void keep_survivors(const PathContext& context, std::size_t& kept);

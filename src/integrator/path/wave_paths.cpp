@@ -21,13 +21,13 @@ void WavePaths::end_path(const PathContext& context, std::size_t i, PathEnding e
     WaveProfile* const profile = context.job.profile;
     if (profile == nullptr) return;
     const Vec2i pixel = pixel_position(context.job, samples[slot[i]].pixel);
-    profile->end_eye_path(ending, {pixel.x, pixel.y, index[i], context.depth});
+    profile->end_eye_path(ending, {pixel.x, pixel.y, index[i], context.rays});
 }
 
 // By value, so that no store to a column can be taken for one to `survivors`.
 void WavePaths::move(BlockSurvivors survivors, const SceneTraits& traits) {
     for (auto* column : {&origin.x, &origin.y, &origin.z, &direction.x, &direction.y, &direction.z, &throughput.r,
-                         &throughput.g, &throughput.b, &eta_scale, &pdf_solid_angle})
+                         &throughput.g, &throughput.b, &roulette_scale, &pdf_solid_angle})
         survivors.move(*column);
     for (auto* column : {&slot, &pixel_seed, &index, &history}) survivors.move(*column);
     if (traits.has_motion) survivors.move(time);

@@ -39,7 +39,7 @@ struct WavePaths : PathColumns {
     void follow(std::size_t i, const VertexEvent& event) { ranges[i] = words.scatter_from_eye(ranges[i], event); }
 
     /// Returns how many light samples path `i` has: where it is, if nothing but deltas has scattered it yet
-    /// (`kOnlyDelta`), or where its ray comes from, if nothing else had there (`kIsDirect`).
+    /// (`kOnlyDeltas`), or where its ray comes from, if nothing else had there (`kIsDirect`).
     [[nodiscard]] std::uint32_t light_samples(const PathContext& context, std::size_t i,
                                               std::uint32_t first_vertex) const {
         return is(first_vertex, i) ? context.settings.light_samples : 1u;
@@ -51,12 +51,12 @@ struct WavePaths : PathColumns {
     }
     /// Returns the key from which the numbers of the `round`-th light sample of path `i` come.
     [[nodiscard]] SampleKey light_sample_key(const PathContext& context, std::size_t i, std::uint32_t round) const {
-        return etendue::light_sample_key(key(i), light_samples(context, i, path_history::kOnlyDelta), round);
+        return etendue::light_sample_key(key(i), light_samples(context, i, path_history::kOnlyDeltas), round);
     }
     /// Returns the alpha key of the ray that path `i` goes on along.
     [[nodiscard]] std::uint32_t next_alpha_key(const PathContext& context, std::size_t i) const {
         if (!context.world.traits().has_transparency) return 0;
-        return sample_bits(key(i), bounce_dimension(context.depth, kAlpha));
+        return sample_bits(key(i), bounce_dimension(context.rays, kAlpha));
     }
     /// Returns the alpha key of the shadow ray of the `round`-th light sample of path `i`, unlike those of other rounds
     /// and of the ray that goes on.

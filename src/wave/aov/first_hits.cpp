@@ -2,7 +2,7 @@
 
 #include "transport/scattered_cone.h"
 #include "wave/aov/aov_set.h"
-#include "world/scattering.h"
+#include "wave/aov/surface_albedo.h"
 
 #include <algorithm>
 #include <array>
@@ -12,15 +12,6 @@
 namespace etendue {
 
 namespace {
-
-/// Pairs of dimensions of albedos; far from those of paths.
-constexpr std::uint32_t kAlbedoDimension = 7u << 28;
-
-/// Diffuse and specular share of light that a surface scatters, by some of the lobe's own samples.
-struct Albedo {
-    Rgb diffuse;
-    Rgb specular;
-};
 
 /// One surface, seen by one sample; what several values need is found once.
 class FirstHit {
@@ -135,33 +126,8 @@ class FirstHit {
         return share;
     }
 
-    const Albedo& albedo() {
-        if (albedo_) return *albedo_;
-        albedo_.emplace();
-        if (point_.material->unlit) return *albedo_;
-        float ior = 0.0f;
-        if (world_.traits().has_bodies && world_.media().is_boundary(point_))
-            ior = (hit_.in_contact ? world_.media().contact_crossing(point_, world_.media().camera_interior(), hit_,
-                                                                     ray_, RayCone{})
-                                   : world_.media().crossing(point_, world_.media().camera_interior()))
-                      .relative_ior(0.0f);
-        Bsdf storage;
-        const Bsdf& bsdf = world_.materials().bsdf(point_, wo_, ior, storage);
-        const Scattering scattering(bsdf, point_.shading, point_.geometric_normal, wo_);
-        constexpr std::uint32_t kSamples = 4;
-        for (std::uint32_t i = 0; i < kSamples; ++i) {
-            const auto number = [&](std::uint32_t which) {
-                return sample_2d(job_.sequence, sample_.key, kAlbedoDimension + 2 * i + which);
-            };
-            // Radiance is scaled where it enters glass, which is no albedo. Nor is importance with its factor of
-            // shading normals, which may be anything.
-            const BsdfSample s = scattering.sample(number(0).x, number(1), TransportMode::Radiance);
-            if (is_black(s.weight)) continue;
-            const Rgb weight = s.weight * ((s.is_transmission ? s.eta * s.eta : 1.0f) / kSamples);
-            const Rgb diffuse = s.is_delta ? Rgb() : scattering.diffuse_share(s.wi, TransportMode::Radiance) * weight;
-            albedo_->diffuse += diffuse;
-            albedo_->specular += weight - diffuse;
-        }
+    const SurfaceAlbedo& albedo() {
+        if (!albedo_) albedo_ = surface_albedo(world_, point_, ray_, hit_, {job_.sequence, sample_.key});
         return *albedo_;
     }
 
@@ -172,7 +138,7 @@ class FirstHit {
     Vec3f wo_;
     const Ray& ray_;
     SurfacePoint point_;
-    std::optional<Albedo> albedo_;
+    std::optional<SurfaceAlbedo> albedo_;
 };
 
 void find_ids(const World& world, const AovSet& aovs, const Hit& hit, std::span<std::uint32_t> ids) {

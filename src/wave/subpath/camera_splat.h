@@ -3,6 +3,7 @@
 
 #include "core/ray.h"
 #include "film/splat_film.h"
+#include "transport/light.h"
 #include "wave/aov/aov_set.h"
 #include "wave/film_repeats.h"
 #include "wave/render_counters.h"
@@ -12,12 +13,9 @@
 
 namespace etendue {
 
-/// How the camera sees a point, if it does at all.
-struct CameraView {
-    CameraConnection camera;
+/// Says where in the image a point is seen besides.
+struct CameraView : LensView {
     Vec2f pixel{0.0f, 0.0f};  ///< place in the full image, pixels
-    Vec3f direction{0.0f};    ///< unit, from the point to the lens
-    float distance = 0.0f;    ///< metres
     float depth = 0.0f;       ///< metres along the viewing direction; of deep images only
 };
 
@@ -25,14 +23,12 @@ struct CameraView {
 /// the window would show it.
 [[nodiscard]] inline std::optional<CameraView> view_from_camera(const World& world, const TileJob& job,
                                                                 const Vec3f& position, Vec2f lens, float time) {
-    CameraView view{.camera = world.camera().connect(position, lens, time)};
-    if (!(view.camera.importance_area > 0.0f)) return std::nullopt;
-    view.pixel = {view.camera.film.x * static_cast<float>(job.full_width),
-                  view.camera.film.y * static_cast<float>(job.full_height)};
+    const std::optional<LensView> seen = view_from_lens(world, position, lens, time);
+    if (!seen) return std::nullopt;
+    CameraView view{*seen,
+                    {seen->camera.film.x * static_cast<float>(job.full_width),
+                     seen->camera.film.y * static_cast<float>(job.full_height)}};
     if (!is_in_view(world, job, view.pixel)) return std::nullopt;
-    const Vec3f to_lens = view.camera.lens - position;
-    view.distance = length(to_lens);
-    view.direction = to_lens * (1.0f / view.distance);
     if (job.aovs != nullptr && job.aovs->layout.is_deep) view.depth = world.camera().depth(position, time);
     return view;
 }

@@ -3,8 +3,8 @@
 
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
-#include "wave/connections.h"
 #include "wave/number_pairs.h"
+#include "wave/shadow_ray_queue.h"
 #include "wave/subpath/camera_splat.h"
 #include "wave/subpath/subpath_wave.h"
 
@@ -19,8 +19,8 @@ class LampsToCamera {
     /// Connects the points at which `subpaths`, those of `job` from lights, begin to points on the lens, and leaves to
     /// `connections` what arrives, times `weigh(emission, camera, cosine)` with the cosine at the lamp.
     template <typename Weigh>
-    void connect(const SubpathJob& job, SubpathWave& subpaths, Connections& connections, const Weigh& weigh) {
-        const World& world = job.world;
+    void connect(const SubpathJob& job, SubpathWave& subpaths, ShadowRayQueue& connections, const Weigh& weigh) {
+        const World& world = job.world();
         draw_lens(job);
         for (std::uint32_t slot = 0; slot < job.samples.size(); ++slot) {
             const Emission& emission = subpaths.emissions()[slot];

@@ -33,7 +33,6 @@ struct PathVertex {
     WordRange words{};                   ///< words of the subpath as it arrives
     std::uint16_t label = 0;             ///< label of the material, for words
     std::uint32_t slot = 0;              ///< which sample
-    std::uint32_t previous = kNoVertex;  ///< the one before it, kNoVertex after the light or the lens
     int index = 1;                       ///< vertices before it
     int next_edges = 1;                  ///< edges of the path when a ray from here has hit; media add none
     bool is_dispersed = false;           ///< light of other wavelengths would not be here, or would not scatter so
@@ -41,9 +40,7 @@ struct PathVertex {
     bool merges = false;                 ///< subpaths from the other end may merge with this one here
     bool is_reached_directly = true;     ///< false if boundaries that other bodies hide lie before it
     bool is_seen_directly = true;        ///< nothing but deltas lie between the eye and it
-    bool is_hidden = false;              ///< the surface is hidden from the camera
-    bool is_left_by_delta = false;       ///< the subpath went on by one
-    float delta_reverse_ratio = 1.0f;    ///< BsdfSample::reverse_ratio of the delta by which it was left
+    bool is_hidden_from_camera = false;  ///< the surface is hidden from the camera
 
     /// False in a medium.
     [[nodiscard]] bool is_on_surface() const {

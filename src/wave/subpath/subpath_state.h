@@ -21,11 +21,10 @@ struct SubpathState {
     DepartingDensities departing;
     WordRange words;
     std::uint32_t slot = 0;
-    std::uint32_t last_vertex = PathVertex::kNoVertex;
     int index = 1;  ///< index of the vertex to come
     int edges = 1;  ///< edges of the path when its ray has hit; media, panes and hidden boundaries add none
     bool is_dispersed = false;
-    bool only_delta = true;
+    bool only_deltas = true;
     bool lights_directly = true;  ///< every scattering but the last was a delta
     bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
 };

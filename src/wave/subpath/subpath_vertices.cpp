@@ -33,26 +33,24 @@ PathVertex& SubpathVertices::store(SubpathState& state) {
     vertex.throughput = state.throughput;
     vertex.words = state.words;
     vertex.slot = state.slot;
-    vertex.previous = state.last_vertex;
     vertex.index = state.index;
     vertex.is_dispersed = state.is_dispersed;
     vertex.is_reached_directly = state.is_direct;
-    vertex.is_seen_directly = state.only_delta;
-    state.last_vertex = static_cast<std::uint32_t>(vertices_.size() - 1);
+    vertex.is_seen_directly = state.only_deltas;
     state.is_direct = true;
     return vertex;
 }
 
 void SubpathVertices::list_connectible(const SubpathState& state, int next_edges) {
     connectible_.push_back({static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index, next_edges,
-                            state.only_delta, state.is_dispersed});
+                            state.only_deltas, state.is_dispersed});
 }
 
 void SubpathVertices::place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex) {
     vertex.position = point.position;
     vertex.geometric_normal = point.geometric_normal;
     vertex.clearance = point.clearance;
-    vertex.is_hidden = !point.material->visible_to_camera;
+    vertex.is_hidden_from_camera = !point.material->visible_to_camera;
     if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
     Bsdf& storage = bsdfs_[bsdf_count_];
     const Bsdf& bsdf = world.materials().bsdf(point, vertex.wo, relative_ior, storage);

@@ -18,39 +18,38 @@ namespace {
 void find_light(LightFinder& finder, const SubpathState& state, const Ray& ray, const Hit& hit,
                 const ShadedSubpath& path, bool is_first) {
     if (!hit.valid()) return finder.on_escape(state, ray.direction);
-    if (path.point.material->emits && !(is_first && finder.knows_emission(hit)))
+    if (path.point.material->emits && !(is_first && finder.finds_emission(hit)))
         finder.on_emitter(state, path.point, ray.direction, path.arrived);
-    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
-        finder.on_unlit(state, path.point, ray.direction);
+    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden)) finder.on_unlit(state, path.point);
 }
 
 }  // namespace
 
 Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
-    return world.spectral_response().sample(
+    return world().spectral_response().sample(
         sample_2d(job.sequence, shared_key(job, samples[slot].key), kSubpathWavelengthDimension).x);
 }
 
 bool SubpathJob::needs(SubpathEnd end, SubpathDimension which) const {
     switch (which) {
         case SubpathDimension::Medium:
-            return world.traits().has_scattering_bodies;
+            return world().traits().has_scattering_bodies;
         case SubpathDimension::LightChoice:
-            return end == SubpathEnd::AtEye ? world.traits().chooses_lights : world.traits().has_lens;
+            return end == SubpathEnd::AtEye ? world().traits().chooses_lights : world().traits().has_lens;
         default:
             return true;
     }
 }
 
 std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
-    if (!world.traits().has_transparency) return 0;
+    if (!world().traits().has_transparency) return 0;
     // Another one than that of the subpath's own ray.
     return ~sample_bits(samples[slot].key, subpath_dimension(end, index, SubpathDimension::Alpha));
 }
 
 void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                         RenderCounters& counters) {
-    roulette_depth_ = first_roulette(job.world, roulette_depth);
+    roulette_depth_ = first_roulette(job.world(), roulette_depth);
     const std::size_t count = job.samples.size();
     states_.assign(count, {});
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
@@ -67,20 +66,20 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         const RayKind kind = end_ == SubpathEnd::AtLight ? RayKind::LightSubpath
                              : from_camera               ? RayKind::Primary
                                                          : RayKind::Bounce;
-        if (chooses_surfaces(job.world)) {
+        if (chooses_surfaces(job.world())) {
             lit_counts_.resize(rays_.size());
-            intersect_lit(job.world, job.job, rays_, hits_, lit_counts_, counters);
+            intersect_lit(job.world(), job.job, rays_, hits_, lit_counts_, counters);
             for (std::size_t i = 0; i < states_.size(); ++i) states_[i].throughput *= lit_counts_[i];
         } else {
-            intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
+            intersect_batch(job.world(), job.job, kind, rays_, hits_, counters);
         }
-        if (kind == RayKind::Bounce && job.world.traits().hides_surfaces)
+        if (kind == RayKind::Bounce && job.world().traits().hides_surfaces)
             for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen && job.world.materials().is_hidden_from_camera(hits_[i]))
-                    hits_[i] = intersect_one(job.world, job.job, RayKind::Primary, rays_[i], counters);
-        if (job.world.traits().clips_far && end_ == SubpathEnd::AtEye)
+                if (states_[i].index == kDirectlySeen && job.world().materials().is_hidden_from_camera(hits_[i]))
+                    hits_[i] = intersect_one(job.world(), job.job, RayKind::Primary, rays_[i], counters);
+        if (job.world().traits().clips_far && end_ == SubpathEnd::AtEye)
             for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen && job.world.camera().is_too_far(rays_[i], hits_[i]))
+                if (states_[i].index == kDirectlySeen && job.world().camera().is_too_far(rays_[i], hits_[i]))
                     hits_[i] = {};
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
@@ -89,8 +88,8 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         draw_numbers(job);
         stamp(job.job.profile, Stage::Numbers);
         std::size_t kept = 0;
-        for (std::size_t first = 0; first < states_.size(); first += kBlock)
-            advance_block(job, finder, first, std::min(kBlock, states_.size() - first), kept);
+        for (std::size_t first = 0; first < states_.size(); first += kBlockLanes)
+            advance_block(job, finder, first, std::min(kBlockLanes, states_.size() - first), kept);
         states_.resize(kept);
         rays_.resize(kept);
     }
@@ -108,7 +107,7 @@ std::size_t SubpathWave::bytes() const {
 
 void SubpathWave::begin_at_eye(const SubpathJob& job) {
     PathWords& words = vertices_.words();
-    if (job.world.traits().has_bodies) interiors_.assign(states_.size(), job.world.media().camera_interior());
+    if (job.world().traits().has_bodies) interiors_.assign(states_.size(), job.world().media().camera_interior());
     for (std::size_t i = 0; i < states_.size(); ++i) {
         states_[i].slot = static_cast<std::uint32_t>(i);
         states_[i].from = rays_[i].origin;
@@ -117,7 +116,7 @@ void SubpathWave::begin_at_eye(const SubpathJob& job) {
 }
 
 void SubpathWave::begin_at_lights(const SubpathJob& job) {
-    const World& world = job.world;
+    const World& world = job.world();
     PathWords& words = vertices_.words();
     emissions_.resize(job.samples.size());
     keys_.clear();
@@ -137,7 +136,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
         const Emission& emission = emissions_[i];
         make_in_place(emissions_[i],
-                      [&] { return world.emitters().sample(light_choice_[i], u, rays_[i].time, job.aims); });
+                      [&] { return world.emitters().sample(light_choice_[i], u, rays_[i].time, job.mis.aims); });
         if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
         const EmissionSample& sample = emission.sample;
         SubpathState state;
@@ -146,7 +145,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         state.from = sample.position;
         state.slot = static_cast<std::uint32_t>(i);
         if (words.are_followed()) state.words = words.begin_at_light(words.light_source(world, emission.light));
-        state.departing = leave_light(job.mis(), emission);
+        state.departing = leave_light(job.mis, emission);
         states_[kept] = state;
         rays_[kept] = emission.ray;
         rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
@@ -169,12 +168,12 @@ void SubpathWave::draw_numbers(const SubpathJob& job) {
     };
     draw(SubpathDimension::Scattering, scattering_);
     draw(SubpathDimension::Choices, choices_);
-    if (job.world.traits().has_bodies) draw(SubpathDimension::Medium, medium_);
+    if (job.world().traits().has_bodies) draw(SubpathDimension::Medium, medium_);
 }
 
 void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
                                 std::size_t& kept) {
-    const World& world = job.world;
+    const World& world = job.world();
     WaveProfile* const profile = job.job.profile;
     surfaces_ = 0;
     world.geometry().fetch_triangles(std::span(hits_).subspan(first, count));
@@ -198,7 +197,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
     ends_.fill(PathVertex::kNoVertex);
     for (std::size_t s = 0; s < surfaces_; ++s) {
         const std::uint8_t k = on_surface_[s];
-        if (make_vertex(job, first + k, block_[k])) on_surface_[vertices++] = k;
+        if (make_vertex(job, first, k)) on_surface_[vertices++] = k;
     }
     if (makes_matte_ends_) store_matte_ends();
     stamp(profile, Stage::Textures);
@@ -214,7 +213,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
 }
 
 bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path) {
-    const World& world = job.world;
+    const World& world = job.world();
     if (!hits_[i].valid()) {
         end_path(job, i, PathEnding::Escaped);
         return false;
@@ -237,12 +236,7 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
     }
     make_in_place(path.point, [&] { return world.geometry().surface_point(hits_[i], rays_[i], RayCone{}); });
     path.crossing.reset();
-    if (world.traits().has_bodies && world.media().is_boundary(path.point))
-        path.crossing.emplace(InPlace{[&] {
-            return hits_[i].in_contact
-                       ? world.media().contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
-                       : world.media().crossing(path.point, interiors_[i]);
-        }});
+    if (world.traits().has_bodies) path.crossing = crossing_at(world, path.point, {rays_[i], interiors_[i], hits_[i]});
     return true;
 }
 
@@ -271,7 +265,7 @@ void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
         }
     }
     if (!any_departed) return;
-    arrivals_.arrive(surfaces_, job.raised);
+    arrivals_.arrive(surfaces_, job.mis.raised);
     for (std::size_t s = 0; s < surfaces_; ++s)
         if (states_[first + on_surface_[s]].index > 1) block_[on_surface_[s]].arrived = arrivals_[s];
 }
@@ -279,11 +273,12 @@ void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {
     const SubpathState& state = states_[i];
     if (state.index > 1)
-        return state.departing.arrive(job.raised, static_cast<double>(length_squared(position - state.from)), cosine);
+        return state.departing.arrive(job.mis.raised, static_cast<double>(length_squared(position - state.from)),
+                                      cosine);
     if (end_ == SubpathEnd::AtLight)
-        return arrive_from_light(job.mis(), emissions_[state.slot], state.departing, position, cosine);
+        return arrive_from_light(job.mis, emissions_[state.slot], state.departing, position, cosine);
     const Vec2f lens = job.samples[state.slot].lens;
-    return arrive_from_lens(job.mis(), state.departing, job.world.camera().connect(position, lens, rays_[i].time),
+    return arrive_from_lens(job.mis, state.departing, job.world().camera().connect(position, lens, rays_[i].time),
                             cosine);
 }
 
@@ -314,8 +309,8 @@ bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& pos
     SubpathState& state = states_[i];
     state.throughput *= weight;
     state.from = position;
-    state.lights_directly = state.only_delta;
-    state.only_delta = state.only_delta && is_delta;
+    state.lights_directly = state.only_deltas;
+    state.only_deltas = state.only_deltas && is_delta;
     ++state.index;
     ++state.edges;
     return true;
@@ -327,7 +322,7 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
     SubpathState& state = states_[i];
     if (vertices_.words().are_followed()) vertices_.follow_words(state, matte_event(vertices_[path.vertex].label));
     state.departing =
-        depart(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane], lanes_.next_cosine[lane]);
+        depart(job.mis.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane], lanes_.next_cosine[lane]);
     rays_[i].origin = lanes_.next_origin[lane];
     rays_[i].direction = lanes_.next_direction[lane];
     return true;
@@ -349,15 +344,13 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     Ray& ray = rays_[i];
     PathVertex& vertex = vertices_[path.vertex];
     const Scattering& scattering = *vertex.surface;
-    vertex.is_left_by_delta = sample.is_delta;
-    if (sample.is_delta) vertex.delta_reverse_ratio = sample.reverse_ratio;
     if (vertices_.words().are_followed())
         vertices_.follow_words(state,
                                surface_event(scattering, sample.wi, sample.is_delta, mode_of(end_), vertex.label));
     if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     const float cosine = abs_dot(sample.wi, point.geometric_normal);
-    state.departing = sample.is_delta ? depart_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
-                                      : depart(job.raised, path.arrived, sample.pdf_solid_angle,
+    state.departing = sample.is_delta ? depart_by_delta(job.mis.raised, path.arrived, sample.reverse_ratio, cosine)
+                                      : depart(job.mis.raised, path.arrived, sample.pdf_solid_angle,
                                                scattering.reverse_pdf_solid_angle(sample.wi, mode_of(end_)), cosine);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
@@ -367,18 +360,16 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
 
 void SubpathWave::pass_pane(std::size_t i, const ShadedSubpath& path) {
     SubpathState& state = states_[i];
-    const PathVertex& vertex = vertices_[path.vertex];
     const SurfacePoint& point = path.point;
     state.throughput *= path.sample.weight;
-    state.last_vertex = vertex.previous;
-    state.is_direct = vertex.is_reached_directly;
+    state.is_direct = vertices_[path.vertex].is_reached_directly;
     rays_[i].origin = offset_origin(point.position, point.geometric_normal, point.clearance, rays_[i].direction);
 }
 
 bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     SubpathState& state = states_[i];
     Ray& ray = rays_[i];
-    const HomogeneousMedium* medium = job.world.media().within(interiors_[i]);
+    const HomogeneousMedium* medium = job.world().media().within(interiors_[i]);
     if (medium == nullptr) return false;
     const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
     state.throughput *= sample.weight;
@@ -386,7 +377,7 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     if (job.job.profile != nullptr && end_ == SubpathEnd::AtEye) ++job.job.profile->use().phase_samples;
     const Vec3f wo = -ray.direction;
     const Vec3f position = ray.origin + ray.direction * sample.distance;
-    if (chooses_surfaces(job.world)) state.throughput *= chance_beyond(job.world, ray, position);
+    if (chooses_surfaces(job.world())) state.throughput *= chance_beyond(job.world(), ray, position);
     PathVertex& vertex = vertices_.store(state);
     vertex.position = position;
     vertex.wo = wo;
@@ -399,9 +390,9 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     // Forwards and backwards a phase function has one density.
     const float phase = medium->phase.pdf_solid_angle(wo, ray.direction);
     state.from = vertex.position;
-    state.departing = depart(job.raised, vertex.densities, phase, phase, 1.0f);
-    state.lights_directly = state.only_delta;
-    state.only_delta = false;
+    state.departing = depart(job.mis.raised, vertex.densities, phase, phase, 1.0f);
+    state.lights_directly = state.only_deltas;
+    state.only_deltas = false;
     if (vertices_.words().are_followed()) vertices_.follow_words(state, VertexEvent{});
     ++state.index;
     return true;
@@ -432,7 +423,7 @@ void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::
         const std::size_t i = first + k;
         const bool survives = choices_[i].y < survival[k];
         if (job.job.profile != nullptr && goes_on_[k] && !survives) end_path(job, i, PathEnding::Roulette);
-        if (job.world.traits().has_transparency)
+        if (job.world().traits().has_transparency)
             rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, SubpathDimension::Alpha));
         states_[kept] = states_[i];
         states_[kept].throughput *= 1.0f / survival[k];

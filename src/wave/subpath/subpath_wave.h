@@ -23,25 +23,26 @@
 
 namespace etendue {
 
+/// Returns what the weights of the paths of a job depend on.
+[[nodiscard]] inline MisContext mis_context(const World& world, const TileJob& job,
+                                            const IntegratorSettings& settings) {
+    return {.world = world,
+            .raised = Raised{settings.heuristic},
+            .samples_per_light_path = static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
+                                      static_cast<double>(job.window.area()),
+            .merging = job.merging,
+            .aims = settings.aimed_emission};
+}
+
 /// Says which samples one wave of subpaths is traced for, how long paths may be and how strategies are weighed.
 struct SubpathJob {
-    const World& world;
+    MisContext mis;
     const TileJob& job;
     const PathLengths& lengths;
-    Raised raised;
-    std::span<const CameraSample> samples;
-    std::span<const Ray> camera_rays;  ///< rays of the samples, in their order
-    bool aims = false;                 ///< light subpaths are aimed, see LightEmitter::sample
-    Merging merging{};                 ///< where subpaths merge
+    std::span<const CameraSample> samples{};
+    std::span<const Ray> camera_rays{};  ///< rays of the samples, in their order
 
-    /// Returns camera samples per area of the film over light paths, by which the density of the eye's first vertex is
-    /// multiplied.
-    [[nodiscard]] double samples_per_light_path() const {
-        return static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
-               static_cast<double>(job.window.area());
-    }
-    /// Returns what weights depend on.
-    [[nodiscard]] MisContext mis() const { return {world, raised, samples_per_light_path(), merging, aims}; }
+    [[nodiscard]] const World& world() const { return mis.world; }
     /// Returns the wavelength of the path of the sample in `slot`, if it needs one; both subpaths have the same.
     [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {
@@ -60,22 +61,22 @@ class LightFinder {
     /// `arrived` is for the point as a vertex.
     virtual void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                             const SubpathDensities& arrived) = 0;
-    virtual void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) = 0;
+    virtual void on_unlit(const SubpathState& state, const SurfacePoint& point) = 0;
     virtual void on_escape(const SubpathState& state, const Vec3f& direction) = 0;
     /// Hears what all camera rays have met, before any other call tells of it.
     virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
     /// True if `on_emitter` is not to be told of what a camera ray has hit first.
-    [[nodiscard]] virtual bool knows_emission(const Hit& first_hit) const = 0;
+    [[nodiscard]] virtual bool finds_emission(const Hit& first_hit) const = 0;
 };
 
 /// A subpath whose ray has hit a surface, between the stages of its shading.
 struct ShadedSubpath {
     SurfacePoint point;           ///< of a plain surface, its material only
     const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `MatteLanes`
-    std::size_t lane = 0;         ///< there
+    std::size_t lane = 0;         ///< lane of a plain surface in `MatteLanes`
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
-    std::uint32_t vertex = PathVertex::kNoVertex;  ///< that was stored for it
+    std::uint32_t vertex = PathVertex::kNoVertex;  ///< place of the vertex that was stored for it
     bool ends_here = false;  ///< it is as long as it may be, and can only go straight through a pane
     BsdfSample sample;       ///< unless plain
 };
@@ -86,7 +87,7 @@ class SubpathWave {
     SubpathWave(SubpathEnd end, bool makes_matte_ends)
         : end_(end), makes_matte_ends_(makes_matte_ends), vertices_(end, makes_matte_ends) {}
 
-    /// Traces the subpath of each sample. From `roulette_depth` edges on Russian roulette may end it. Vertices of
+    /// Traces the subpath of each sample. After `roulette_depth` rays Russian roulette may end it. Vertices of
     /// former calls are gone. `finder` may be null for lights. Rays are counted in `light`.
     void trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                RenderCounters& counters);
@@ -107,10 +108,8 @@ class SubpathWave {
         return end_ == SubpathEnd::AtLight && world.traits().culls_backs;
     }
     void draw_numbers(const SubpathJob& job);
-    /// Subpaths that go from one stage of shading to the next together, as in PathWave.
-    static constexpr std::size_t kBlock = kBlockLanes;
-    /// Advances subpaths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
-    /// `kept` says.
+    /// Advances subpaths [first, first + count), count <= kBlockLanes, stage by stage, and moves those that go on to
+    /// where `kept` says.
     void advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
                        std::size_t& kept);
     /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
@@ -119,8 +118,11 @@ class SubpathWave {
     void set_up_plain();
     /// Computes with which densities the block's subpaths arrive at surfaces.
     void arrive_at_surfaces(const SubpathJob& job, std::size_t first);
-    /// Stores the vertex, if the subpath may have one more; false if it ends, or only passes through.
-    bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
+    /// Takes subpath `i` through a boundary that another body hides.
+    void pass_hidden(std::size_t i, const ShadedSubpath& path);
+    /// Stores the vertex of the `k`-th subpath of the block from `first` on, if it may have one more; false if it ends,
+    /// or only passes through.
+    bool make_vertex(const SubpathJob& job, std::size_t first, std::size_t k);
     /// Gives the lane of the vertex just stored, which is plain, a place for its MatteEnd and `end_fewer`; false if the
     /// vertex has no such end.
     bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
@@ -157,13 +159,14 @@ class SubpathWave {
     SampleKeys keys_;
     NumberPairs scattering_, choices_, medium_;
     // Of the block that advances.
-    std::array<ShadedSubpath, kBlock> block_;
-    std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of those on surfaces, then with vertices
+    std::array<ShadedSubpath, kBlockLanes> block_;
+    std::array<std::uint8_t, kBlockLanes>
+        on_surface_{};  ///< places in the block of those on surfaces, then with vertices
     std::size_t surfaces_ = 0;
     MatteLanes lanes_;
-    std::array<std::uint32_t, kBlock> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
+    std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
     ArrivalColumns arrivals_;
-    std::array<bool, kBlock> goes_on_{};
+    std::array<bool, kBlockLanes> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
     std::vector<Emission> emissions_;

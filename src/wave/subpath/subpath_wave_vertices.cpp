@@ -5,17 +5,24 @@
 
 namespace etendue {
 
-bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path) {
-    SubpathState& state = states_[i];
+void SubpathWave::pass_hidden(std::size_t i, const ShadedSubpath& path) {
+    // No connection passes a boundary.
+    states_[i].departing.is_connectible = false;
+    states_[i].is_direct = false;
+    const SurfacePoint& point = path.point;
     Ray& ray = rays_[i];
+    interiors_[i] = beyond(*path.crossing, point, ray.direction);
+    ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
+}
+
+bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::size_t k) {
+    const std::size_t i = first + k;
+    ShadedSubpath& path = block_[k];
+    SubpathState& state = states_[i];
     const SurfacePoint& point = path.point;
     if (path.crossing && path.crossing->is_hidden) {
-        // No connection passes a boundary.
-        state.departing.is_connectible = false;
-        state.is_direct = false;
-        interiors_[i] = beyond(*path.crossing, point, ray.direction);
-        ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
-        goes_on_[static_cast<std::size_t>(&path - block_.data())] = true;
+        pass_hidden(i, path);
+        goes_on_[k] = true;
         return false;
     }
     if (point.material->unlit) {
@@ -27,7 +34,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         end_path(job, i, PathEnding::TooLong);
         return false;
     }
-    const World& world = job.world;
+    const World& world = job.world();
     const std::optional<Crossing>& crossing = path.crossing;
     float relative_ior = 0.0f;
     if (crossing) {
@@ -36,7 +43,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
     }
     path.vertex = static_cast<std::uint32_t>(vertices_.all().size());
     PathVertex& vertex = vertices_.store(state);
-    vertex.wo = -ray.direction;
+    vertex.wo = -rays_[i].direction;
     vertex.label = vertices_.words().label(world, point);
     vertex.densities = path.arrived;
     vertex.next_edges = state.edges + 1;
@@ -48,7 +55,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.clearance = lanes_.clearance[path.lane];
     }
     if (vertex.is_connectible && !path.ends_here) {
-        vertex.merges = merge_at(job.mis(), state.departing, vertex.position, path.arrived);
+        vertex.merges = merge_at(job.mis, state.departing, vertex.position, path.arrived);
         vertex.densities = path.arrived;
     }
     if (world.traits().has_bodies) {
@@ -73,7 +80,7 @@ bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
     if (!makes_matte_ends_ || vertex.outside != nullptr || vertex.is_dispersed) return false;
     // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
-    const double fewer = path.arrived.fewer(job.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
+    const double fewer = path.arrived.fewer(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
     if (!((fewer > kSmallest && fewer < kLargest) || fewer == 0.0)) return false;
     ends_[path.lane] = path.vertex;
     lanes_.end_fewer.set(path.lane, static_cast<float>(fewer));
@@ -81,7 +88,7 @@ bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
 }
 
 void SubpathWave::store_matte_ends() {
-    std::array<MatteEnd*, kBlock> ends;
+    std::array<MatteEnd*, kBlockLanes> ends;
     for (std::size_t lane = 0; lane < surfaces_; ++lane)
         ends[lane] = ends_[lane] == PathVertex::kNoVertex ? nullptr : &vertices_.matte_end_at(ends_[lane]);
     lanes_.store_ends(std::span(ends).first(surfaces_));

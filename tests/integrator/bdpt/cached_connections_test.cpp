@@ -1,5 +1,5 @@
 // Connections to light vertices of all samples of a wave: they make the image that those within each sample make.
-#include "integrator/bdpt/reference_weights.h"
+#include "integrator/bdpt/bdpt_job.h"
 #include "integrator/bdpt/render_bdpt.h"
 #include "integrator/closed_form_scene.h"
 #include "world/test_scene.h"
@@ -135,37 +135,18 @@ TEST(CachedConnectionsOfThreads, AreTheSame) {
     EXPECT_NE(one, render_bdpt(world, pairwise, 8, 3, 1));
 }
 
-/// Looks at which vertices make a path, and at its weight.
-class PathObserver final : public WeightObserver {
-  public:
-    void on_weight(const SubpathJob& job, const CompletePath& path, double weight) override {
-        const std::vector<double> reference = reference_weights(job, path);
-        const auto is_of_first = [&](const PathVertex* vertex) { return vertex->slot == path.inner.front()->slot; };
-        const auto is_dispersed = [](const PathVertex* vertex) { return vertex->is_dispersed; };
-        const bool is_mixed = !std::ranges::all_of(path.inner, is_of_first);
-        const bool is_of_one_wavelength = std::ranges::any_of(path.inner, is_dispersed);
-        mixed += is_mixed ? 1 : 0;
-        dispersed += is_of_one_wavelength ? 1 : 0;
-        mixed_wavelengths += is_mixed && is_of_one_wavelength ? 1 : 0;
-        wrong_weights += is_mixed && std::abs(weight - reference[path.s]) > 0.01 ? 1 : 0;
-    }
-    int mixed = 0;  ///< paths of vertices of two samples
-    int dispersed = 0;
-    int mixed_wavelengths = 0;
-    int wrong_weights = 0;
-};
-
-// Each sample has a wavelength of its own, and no weight knows which samples a path is made of.
-TEST(CachedConnectionsObserved, MixNoWavelengthsAndKeepTheWeights) {
+// Each sample has a wavelength of its own: a path of vertices of two samples must not have two.
+TEST(CachedConnectionsOfOneWavelength, AreThoseOfEachSample) {
     const World world = agreement_world(agreement_case("LampPrism"));
-    PathObserver observer;
-    IntegratorSettings options{.lengths = {.max_depth = 6}, .cached_connections = 2};
-    (void)render_bdpt(world, options, 2, 5, 1, &observer);
-    EXPECT_GT(observer.mixed, 1000);
-    EXPECT_GT(observer.dispersed, 1000);
-    EXPECT_EQ(observer.mixed_wavelengths, 0);
-    // Single precision costs the reference, which has nothing but positions, some where edges are short.
-    EXPECT_LE(observer.wrong_weights, observer.mixed / 1000);
+    const TileJob tile{};
+    const IntegratorSettings settings{.cached_connections = 2};
+    const BdptJob job{
+        {.mis = {.world = world}, .job = tile, .lengths = settings.lengths, .samples = {}, .camera_rays = {}},
+        settings};
+    ConnectibleVertex vertex{};
+    EXPECT_TRUE(job.is_shared(vertex));
+    vertex.is_dispersed = true;
+    EXPECT_FALSE(job.is_shared(vertex));
 }
 
 // Each sample has a time of its own: where something moves, vertices of others are elsewhere by then.

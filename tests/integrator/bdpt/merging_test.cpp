@@ -83,7 +83,7 @@ TEST(Merging, FindsWhatASpotSendsThroughAPlateTwice) {
     const World world = compile(plate_over_floor(0.2f));
     const double expected = light_through_plate();
     const auto mean = [&](MergeAt merge) {
-        return mean_of_render(world, BdptIntegrator({.lengths = {.max_depth = 6}}, nullptr, {.at = merge}), 32);
+        return mean_of_render(world, BdptIntegrator({.lengths = {.max_depth = 6}, .merging = {.at = merge}}), 32);
     };
     // The eye sees a part in which irradiance differs by 1%; counts of some ten thousand photons vary by as much.
     EXPECT_NEAR(mean(MergeAt::BetweenDeltas), expected, 0.02 * expected);
@@ -100,8 +100,7 @@ TEST(Merging, AloneFindsWhatNothingElseDoes) {
     const World world = compile(plate_over_floor(0.2f));
     const double expected = light_through_plate();
     for (const bool weighted : {true, false})
-        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(merges_alone(weighted), nullptr, {}), 32), expected,
-                    0.02 * expected);
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(merges_alone(weighted)), 32), expected, 0.02 * expected);
 }
 
 // A grey box, lit by a lamp that the camera does not see: one way to each path, wherever subpaths could merge.
@@ -115,8 +114,9 @@ TEST(Merging, AloneAndWithoutWeightsIsPhotonMapping) {
     look_down(scene, 3.0f, 2.0f);
     const World world = compile(std::move(scene));
     const double expected = mean_of_render(world, PathIntegrator({.lengths = {.max_depth = 6}}), 64);
-    const auto mean = [&](const IntegratorSettings& settings) {
-        return mean_of_render(world, BdptIntegrator(settings, nullptr, {.at = MergeAt::Everywhere}), 256);
+    const auto mean = [&](IntegratorSettings settings) {
+        settings.merging.at = MergeAt::Everywhere;
+        return mean_of_render(world, BdptIntegrator(settings), 256);
     };
     // Some fifty thousand photons lie in view, and light of one lies in a few pixels of each sample: within 0.5%.
     EXPECT_NEAR(mean(merges_alone(false)), expected, 0.02 * expected);
@@ -134,7 +134,7 @@ TEST(Merging, BoundsThePhotonsOfLargeImages) {
         pixels += photon_pixels(window, tile, 0).size();
     EXPECT_EQ(pixels, photon_paths(window));
     const World world = compile(plate_over_floor(0.2f));
-    const BdptIntegrator integrator({.lengths = {.max_depth = 6, .min_depth = 6}}, nullptr, {.radius = 20.0f});
+    const BdptIntegrator integrator({.lengths = {.max_depth = 6, .min_depth = 6}, .merging = {.radius = 20.0}});
     RenderOptions options = whole_image(kSize, kSize, 1, 3);
     options.window = {kSize / 2 - 32, kSize / 2 - 32, kSize / 2 + 32, kSize / 2 + 32};
     options.splat_window = window;
@@ -201,7 +201,7 @@ double light_of_pool(bool is_point, double height, double width) {
 
 TEST(Merging, ShowsTheFloorOfAPoolUnderAPointAsUnderASmallLamp) {
     constexpr float kHeight = 2.0f;
-    const BdptIntegrator merging({.lengths = {.max_depth = 4, .min_depth = 4}}, nullptr, {});
+    const BdptIntegrator merging({.lengths = {.max_depth = 4, .min_depth = 4}});
     for (const bool is_point : {true, false}) {
         const double expected = light_of_pool(is_point, static_cast<double>(kHeight), static_cast<double>(kSeen));
         EXPECT_NEAR(mean_of_render(pool(is_point, kHeight), merging, 160), expected, 0.03 * expected)
@@ -225,18 +225,17 @@ TEST(Merging, KeepsTheEnergyOfLightThatEyePathsMeetByChance) {
     const PathLengths lengths{.max_depth = 8, .min_depth = 4};
     const double expected = mean_of_render(world, *make_integrator("naive", {.lengths = lengths}), 1024);
     for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
-        IntegratorSettings settings{.lengths = lengths, .heuristic = heuristic};
-        const MergeSettings wide{.radius = 8.0f};
-        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(settings, nullptr, wide), 384), expected, 0.01 * expected);
+        IntegratorSettings settings{.lengths = lengths, .heuristic = heuristic, .merging = {.radius = 8.0}};
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(settings), 384), expected, 0.01 * expected);
         settings.strategy = kMerges;
-        EXPECT_GT(mean_of_render(world, BdptIntegrator(settings, nullptr, wide), 8), 0.3 * expected);
+        EXPECT_GT(mean_of_render(world, BdptIntegrator(settings), 8), 0.3 * expected);
     }
 }
 
 TEST(Merging, IsInTheLayersOfItsPaths) {
     AgreementCase plate{.name = "Plate", .make = [](SceneDesc&) {}, .window = {0, 0, kPlateSize, kPlateSize}, .spp = 4};
     const World world = compile(plate_over_floor(0.2f));
-    const BdptIntegrator merging({.lengths = {.max_depth = 6}}, nullptr, {});
+    const BdptIntegrator merging({.lengths = {.max_depth = 6}});
     RenderOptions options = whole_image(kPlateSize, kPlateSize, 4, 3);
     options.aovs = std::make_shared<AovSet>(expression_layers(plate, {"C S+ D S+ L", "C D S+ L", "C <TS>+ D .* L"}));
     const std::atomic<bool> stop{false};
@@ -269,7 +268,7 @@ TEST_P(MergingAgreement, MakesTheSameImage) {
     const AgreementCase& room = agreement_case(name);
     const World world = agreement_world(room);
     const ThreadPool threads;
-    const BdptIntegrator merging({.lengths = room.lengths}, nullptr, {.at = merge, .radius = 0.2f, .alpha = 1.0f});
+    const BdptIntegrator merging({.lengths = room.lengths, .merging = {.at = merge, .radius = 0.2, .alpha = 1.0}});
     const BlockAgreement result =
         test_agreement(estimate(world, "path", room, {.first_seed = 700}, threads),
                        estimate(world, merging, room, {.first_seed = 800}, threads, room.window),

@@ -15,7 +15,7 @@ using Value = Scattering::TwoWayValue;
 
 /// The inner vertices in the order of the path, as a subpath from one of its ends has them.
 struct Side {
-    std::vector<PathVertex> vertices;
+    std::vector<WalkedVertex> vertices;
     std::vector<Value> values;                  ///< towards the next vertex
     std::vector<DepartingDensities> departing;  ///< towards the next vertex
     std::vector<bool> merges;                   ///< true where it merges as far as this side knows
@@ -24,7 +24,7 @@ struct Side {
 /// Vertex 0 is the first of `inner`.
 class GivenPath {
   public:
-    GivenPath(const SubpathJob& job, const CompletePath& path) : job_(job), path_(path) {}
+    GivenPath(const MisContext& mis, const CompletePath& path) : mis_(mis), path_(path) {}
 
     [[nodiscard]] std::vector<double> weights() {
         const std::size_t n = path_.inner.size();
@@ -44,8 +44,8 @@ class GivenPath {
 
   private:
     [[nodiscard]] bool has_light() const { return path_.end.light != kNone; }
-    [[nodiscard]] bool at_infinity() const { return job_.world.lights().is_at_infinity(path_.end.light); }
-    [[nodiscard]] bool can_be_hit() const { return job_.world.lights().can_be_hit(path_.end.light); }
+    [[nodiscard]] bool at_infinity() const { return mis_.world.lights().is_at_infinity(path_.end.light); }
+    [[nodiscard]] bool can_be_hit() const { return mis_.world.lights().can_be_hit(path_.end.light); }
     [[nodiscard]] std::size_t last() const { return path_.inner.size() - 1; }
 
     /// From vertex `i` towards the eye, unit.
@@ -67,7 +67,7 @@ class GivenPath {
         const bool is_end = path_.s > 0 && (i + 1 == path_.s || i + 2 == path_.s);
         return path_.inner[i]->is_left_by_delta && !is_end;
     }
-    [[nodiscard]] bool scatters_freely(std::size_t i) const { return path_.inner[i]->is_connectible && !is_delta(i); }
+    [[nodiscard]] bool scatters_freely(std::size_t i) const { return path_.inner[i]->has_non_delta() && !is_delta(i); }
     /// True if no hidden boundary lies between vertices `i - 1` and `i`; 0 is that on the light, then, and the last one
     /// is followed by that on the lens.
     [[nodiscard]] bool is_direct(std::size_t i) const {
@@ -77,22 +77,21 @@ class GivenPath {
     }
 
     /// Vertex `i` for a walk that arrives from `wo`.
-    [[nodiscard]] PathVertex seen_from(std::size_t i, const Vec3f& wo) const {
-        PathVertex vertex = *path_.inner[i];
+    [[nodiscard]] WalkedVertex seen_from(std::size_t i, const Vec3f& wo) const {
+        WalkedVertex vertex = *path_.inner[i];
         vertex.wo = wo;
-        if (vertex.surface) vertex.surface = vertex.surface->seen_from(wo);
         return vertex;
     }
     /// Scatters at `vertex`, which is vertex `i`, along `w`; `delta_ratio` is for the walk that made the path.
-    void scatter_along(Side& side, std::size_t i, const PathVertex& vertex, const Vec3f& w, TransportMode mode) {
+    void scatter_along(Side& side, std::size_t i, const WalkedVertex& vertex, const Vec3f& w, TransportMode mode) {
         const Value value = vertex.evaluate_both_ways(w, mode);
         const float ratio = vertex.delta_reverse_ratio;
         const bool is_its_way = is_from_light(i) == (mode == TransportMode::Importance);
         side.vertices[i] = vertex;
         side.values[i] = value;
-        side.departing[i] = is_delta(i) ? depart_by_delta(job_.raised, vertex.densities,
+        side.departing[i] = is_delta(i) ? depart_by_delta(mis_.raised, vertex.densities,
                                                           is_its_way ? ratio : 1.0f / ratio, vertex.cosine(w))
-                                        : depart(job_.raised, vertex.densities, value.pdf_solid_angle,
+                                        : depart(mis_.raised, vertex.densities, value.pdf_solid_angle,
                                                  value.reverse_pdf_solid_angle, vertex.cosine(w));
     }
     void resize(Side& side) const {
@@ -105,13 +104,13 @@ class GivenPath {
     void walk_from_light() {
         resize(light_);
         for (std::size_t i = 0; i <= last(); ++i) {
-            PathVertex vertex = seen_from(i, to_light(i));
+            WalkedVertex vertex = seen_from(i, to_light(i));
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
             const Emission emission = i == 0 ? this->emission() : Emission{};
-            DepartingDensities departing = i == 0 ? leave_light(job_.mis(), emission) : light_.departing[i - 1];
+            DepartingDensities departing = i == 0 ? leave_light(mis_, emission) : light_.departing[i - 1];
             departing.is_connectible = departing.is_connectible && is_direct(i);
-            vertex.densities = i == 0 ? arrive_from_light(job_.mis(), emission, departing, vertex.position, cosine)
-                                      : departing.arrive(job_.raised, squared_distance(i - 1), cosine);
+            vertex.densities = i == 0 ? arrive_from_light(mis_, emission, departing, vertex.position, cosine)
+                                      : departing.arrive(mis_.raised, squared_distance(i - 1), cosine);
             light_.merges[i] = merges(i, departing, vertex);
             scatter_along(light_, i, vertex, to_eye(i), TransportMode::Importance);
         }
@@ -119,29 +118,29 @@ class GivenPath {
     void walk_from_eye() {
         resize(eye_);
         for (std::size_t i = last() + 1; i-- > 0;) {
-            PathVertex vertex = seen_from(i, to_eye(i));
+            WalkedVertex vertex = seen_from(i, to_eye(i));
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
             DepartingDensities departing = i == last() ? DepartingDensities() : eye_.departing[i + 1];
             departing.is_connectible = departing.is_connectible && is_direct(i + 1);
-            vertex.densities = i == last() ? arrive_from_lens(job_.mis(), departing, path_.camera, cosine)
-                                           : departing.arrive(job_.raised, squared_distance(i), cosine);
+            vertex.densities = i == last() ? arrive_from_lens(mis_, departing, path_.camera, cosine)
+                                           : departing.arrive(mis_.raised, squared_distance(i), cosine);
             eye_.merges[i] = merges(i, departing, vertex);
             scatter_along(eye_, i, vertex, to_light(i), TransportMode::Radiance);
         }
     }
 
     /// Has `vertex`, which is vertex `i`, merge if it may.
-    [[nodiscard]] bool merges(std::size_t i, const DepartingDensities& departing, PathVertex& vertex) const {
+    [[nodiscard]] bool merges(std::size_t i, const DepartingDensities& departing, WalkedVertex& vertex) const {
         return scatters_freely(i) && vertex.is_on_surface() &&
-               merge_at(job_.mis(), departing, vertex.position, vertex.densities);
+               merge_at(mis_, departing, vertex.position, vertex.densities);
     }
 
-    [[nodiscard]] EmittedRay emitted() const { return emitted_ray(job_.world, path_); }
+    [[nodiscard]] EmittedRay emitted() const { return emitted_ray(mis_.world, path_); }
     /// Returns the emission that LightEmitter::sample would have made.
     [[nodiscard]] Emission emission() const {
-        const World& world = job_.world;
+        const World& world = mis_.world;
         const PathLightEnd& end = path_.end;
-        const float pdf = world.emitters().pdf(emitted(), job_.aims);
+        const float pdf = world.emitters().pdf(emitted(), mis_.aims);
         Emission emission;
         emission.light = end.light;
         emission.probability = world.emitters().probability(end.light);
@@ -162,7 +161,7 @@ class GivenPath {
     }
     /// Returns the light sample that LightSampler::sample would have made for vertex 0.
     [[nodiscard]] ChosenLight chosen() const {
-        const World& world = job_.world;
+        const World& world = mis_.world;
         const PathLightEnd& end = path_.end;
         const Vec3f& position = path_.inner.front()->position;
         ChosenLight chosen;
@@ -192,41 +191,40 @@ class GivenPath {
         const Vec3f direction = -path_.end.direction;
         DepartingDensities departing = eye_.departing.front();
         departing.is_connectible = departing.is_connectible && is_direct(0);
-        if (at_infinity()) return sums_from_afar(job_.mis(), from, path_.end.light, direction, departing).weight();
+        if (at_infinity()) return sums_from_afar(mis_, from, path_.end.light, direction, departing).weight();
         const SubpathDensities arrived =
-            departing.arrive(job_.raised, static_cast<double>(length_squared(path_.end.position - from)),
+            departing.arrive(mis_.raised, static_cast<double>(length_squared(path_.end.position - from)),
                              std::abs(static_cast<double>(path_.end.cos_light)));
-        return sums_at_emitter(job_.mis(), from, emitted(), arrived).weight();
+        return sums_at_emitter(mis_, from, emitted(), arrived).weight();
     }
     [[nodiscard]] double weight_of_light_sample() const {
-        if (!job_.world.traits().has_sampled_lights || !scatters_freely(0) || !is_direct(0)) return 0.0;
+        if (!mis_.world.traits().has_sampled_lights || !scatters_freely(0) || !is_direct(0)) return 0.0;
         const ChosenLight light = chosen();
         if (!(light.expected_samples > 0.0f)) return 0.0;
-        return sums_of_light_sample(job_.mis(), eye_.vertices.front(), light, eye_.values.front()).weight();
+        return sums_of_light_sample(mis_, eye_.vertices.front(), light, eye_.values.front()).weight();
     }
     /// With vertices up to `i` from the light.
     [[nodiscard]] double weight_between(std::size_t i) const {
         if (!scatters_freely(i) || !scatters_freely(i + 1) || !is_direct(i + 1)) return 0.0;
-        return sums_between(job_.raised, eye_.vertices[i + 1], light_.vertices[i], to_light(i + 1),
+        return sums_between(mis_.raised, eye_.vertices[i + 1], light_.vertices[i], to_light(i + 1),
                             static_cast<float>(squared_distance(i)), eye_.values[i + 1], light_.values[i])
             .weight();
     }
     [[nodiscard]] double weight_at_lens() const {
         if (!scatters_freely(last()) || !is_direct(last() + 1)) return 0.0;
-        return sums_at_lens(job_.mis(), light_.vertices.back(), to_eye(last()), path_.camera, light_.values.back())
-            .weight();
+        return sums_at_lens(mis_, light_.vertices.back(), to_eye(last()), path_.camera, light_.values.back()).weight();
     }
 
     [[nodiscard]] double weight_of_merge(std::size_t i) const {
         if (!light_.merges[i] || !eye_.merges[i]) return 0.0;
         const Value& value = eye_.values[i];
         const double fewer =
-            light_.vertices[i].densities.fewer(job_.raised, static_cast<double>(value.pdf_solid_angle)) +
-            eye_.vertices[i].densities.fewer(job_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
-        return 1.0 / (1.0 + job_.merging.others(fewer / job_.raised(job_.merging.expected(path_.inner[i]->position))));
+            light_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.pdf_solid_angle)) +
+            eye_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
+        return 1.0 / (1.0 + mis_.merging.others(fewer / mis_.raised(mis_.merging.expected(path_.inner[i]->position))));
     }
 
-    const SubpathJob& job_;
+    const MisContext& mis_;
     const CompletePath& path_;
     Side light_;
     Side eye_;
@@ -234,8 +232,8 @@ class GivenPath {
 
 }  // namespace
 
-std::vector<double> recursive_weights(const SubpathJob& job, const CompletePath& path) {
-    return GivenPath(job, path).weights();
+std::vector<double> recursive_weights(const MisContext& mis, const CompletePath& path) {
+    return GivenPath(mis, path).weights();
 }
 
 }  // namespace etendue::test

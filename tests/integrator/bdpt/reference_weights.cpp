@@ -5,41 +5,42 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace etendue::test {
 
 namespace {
 
-double cosine(const PathVertex& vertex, const Vec3f& w) {
+double cosine(const WalkedVertex& vertex, const Vec3f& w) {
     return static_cast<double>(vertex.cosine(w));
 }
 
 /// Density per solid angle of going on along `to` when a walk of this `mode` arrives from `from`.
-double scattering_density(const PathVertex& vertex, const Vec3f& from, const Vec3f& to, TransportMode mode) {
-    if (!vertex.is_on_surface()) return static_cast<double>(vertex.outside->phase.pdf_solid_angle(from, to));
-    return static_cast<double>(vertex.surface->seen_from(from).evaluate(to, mode).pdf_solid_angle);
+double scattering_density(const WalkedVertex& vertex, const Vec3f& from, const Vec3f& to, TransportMode mode) {
+    if (!vertex.is_on_surface()) return static_cast<double>(vertex.medium->phase.pdf_solid_angle(from, to));
+    return static_cast<double>(vertex.scattering().seen_from(from).evaluate(to, mode).pdf_solid_angle);
 }
 
 /// A path and what the strategies' densities are made of. Vertex 0 lies on the light, `inner[i - 1]` is vertex i, the
 /// last one lies on the lens.
 class Path {
   public:
-    Path(const SubpathJob& job, const CompletePath& path)
-        : job_(job),
+    Path(const MisContext& mis, const CompletePath& path)
+        : mis_(mis),
           end_(path.end),
           inner_(path.inner),
           is_connected_(path.s > 0),
           from_light_(path.s > 0 ? path.s - 1 : 0),
           camera_(path.camera),
-          at_infinity_(end_.light != kNone && job.world.lights().is_at_infinity(end_.light)),
-          emitted_(emitted_ray(job.world, path)) {}
+          at_infinity_(end_.light != kNone && mis.world.lights().is_at_infinity(end_.light)),
+          emitted_(emitted_ray(mis.world, path)) {}
 
     [[nodiscard]] std::size_t inner_count() const { return inner_.size(); }
 
     /// Per area, the vertex on the light, as the strategy with `s` > 0 vertices from the light makes it: if it is the
     /// only one it was sampled for the next, else for where its ray goes.
     [[nodiscard]] double on_light(std::size_t s) const {
-        const World& world = job_.world;
+        const World& world = mis_.world;
         if (end_.light == kNone) return 0.0;
         const auto chosen =
             static_cast<double>(s == 1 ? world.lights().probability(inner_.front()->position, end_.light)
@@ -58,14 +59,14 @@ class Path {
 
     /// Per area, vertex `i` > 0 from the light's side. Deltas have their share of `delta` instead of a density.
     [[nodiscard]] double from_light(std::size_t i) const {
-        const World& world = job_.world;
+        const World& world = mis_.world;
         if (end_.light == kNone) return 0.0;
-        const PathVertex& vertex = *inner_[i - 1];
+        const WalkedVertex& vertex = *inner_[i - 1];
         if (i == 1) {
-            const auto pdf = static_cast<double>(world.emitters().pdf(emitted_, job_.aims));
+            const auto pdf = static_cast<double>(world.emitters().pdf(emitted_, mis_.aims));
             return pdf * cosine(vertex, end_.direction) / (at_infinity_ ? 1.0 : squared_distance(0));
         }
-        const PathVertex& before = *inner_[i - 2];
+        const WalkedVertex& before = *inner_[i - 2];
         const double pdf = is_delta(i - 1) ? delta_from_light(i - 1)
                                            : scattering_density(before, -direction(i - 2), direction(i - 1),
                                                                 TransportMode::Importance);
@@ -75,11 +76,11 @@ class Path {
     /// Per area, vertex `i` from the eye's side.
     [[nodiscard]] double from_eye(std::size_t i) const {
         if (i == inner_.size()) {
-            return job_.samples_per_light_path() * static_cast<double>(camera_.importance_area) *
+            return mis_.samples_per_light_path * static_cast<double>(camera_.importance_area) *
                    cosine(*inner_.back(), direction(inner_.size()));
         }
-        if (i == 0 && (end_.light == kNone ? false : !job_.world.lights().can_be_hit(end_.light))) return 0.0;
-        const PathVertex& before = *inner_[i];
+        if (i == 0 && (end_.light == kNone ? false : !mis_.world.lights().can_be_hit(end_.light))) return 0.0;
+        const WalkedVertex& before = *inner_[i];
         const double pdf = is_delta(i + 1)
                                ? delta_from_eye(i + 1)
                                : scattering_density(before, direction(i + 1), -direction(i), TransportMode::Radiance);
@@ -95,7 +96,7 @@ class Path {
     /// True if subpaths merge at vertex i.
     [[nodiscard]] bool merges(std::size_t i) const {
         if (i == 0 || i > inner_.size() || !scatters_freely(i) || !inner_[i - 1]->is_on_surface()) return false;
-        switch (job_.merging.at) {
+        switch (mis_.merging.at) {
             case MergeAt::Nothing:
                 return false;
             case MergeAt::BetweenDeltas:
@@ -107,7 +108,7 @@ class Path {
     }
     /// How many light subpaths are expected within the radius around vertex i, per density.
     [[nodiscard]] double expected_photons(std::size_t i) const {
-        return job_.merging.expected(inner_[i - 1]->position);
+        return mis_.merging.expected(inner_[i - 1]->position);
     }
 
   private:
@@ -119,7 +120,7 @@ class Path {
         return is_connected_ && (i == from_light_ || i == from_light_ + 1);
     }
     [[nodiscard]] bool scatters_freely(std::size_t i) const {
-        return i == 0 || i > inner_.size() || (inner_[i - 1]->is_connectible && !is_delta(i));
+        return i == 0 || i > inner_.size() || (inner_[i - 1]->has_non_delta() && !is_delta(i));
     }
     /// True if nothing but the edge lies between vertices i - 1 and i.
     [[nodiscard]] bool is_direct(std::size_t i) const {
@@ -147,9 +148,9 @@ class Path {
         return static_cast<double>(length_squared(inner_[i]->position - from));
     }
 
-    const SubpathJob& job_;
+    const MisContext& mis_;
     const PathLightEnd& end_;
-    std::span<const PathVertex* const> inner_;
+    std::span<const WalkedVertex* const> inner_;
     bool is_connected_;
     std::size_t from_light_;  ///< how many of `inner_`
     const CameraConnection& camera_;
@@ -159,9 +160,9 @@ class Path {
 
 }  // namespace
 
-std::vector<double> reference_weights(const SubpathJob& job, const CompletePath& complete) {
+std::vector<double> reference_weights(const MisContext& mis, const CompletePath& complete) {
     constexpr double kNever = -std::numeric_limits<double>::infinity();
-    const Path path(job, complete);
+    const Path path(mis, complete);
     const std::size_t inner = path.inner_count();
     const std::size_t last = inner + 1;  // the vertex on the lens; it is s = last that has t = 1
     // In logarithms: products of densities leave the range of numbers.
@@ -185,7 +186,7 @@ std::vector<double> reference_weights(const SubpathJob& job, const CompletePath&
     const double largest = std::ranges::max(densities);
     double sum = 0.0;
     for (double& density : densities) {
-        density = density == kNever ? 0.0 : job.raised(std::exp(density - largest));
+        density = density == kNever ? 0.0 : mis.raised(std::exp(density - largest));
         sum += density;
     }
     for (double& density : densities) density /= sum;

@@ -10,6 +10,6 @@ namespace etendue::test {
 
 /// Returns the weights of all strategies that could have made `path`: element i is that of the strategy with i vertices
 /// from the light, up to that of t = 1; then come those of merges at each inner vertex, from the light to the lens.
-[[nodiscard]] std::vector<double> reference_weights(const SubpathJob& job, const CompletePath& path);
+[[nodiscard]] std::vector<double> reference_weights(const MisContext& mis, const CompletePath& path);
 
 }  // namespace etendue::test

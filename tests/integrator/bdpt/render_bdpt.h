@@ -18,13 +18,13 @@
 namespace etendue::test {
 
 /// Of the agreement cases' size; all `threads` (0: of the machine) make the same.
-[[nodiscard]] inline std::vector<float> render_bdpt(const World& world, const IntegratorSettings& settings,
-                                                    std::uint32_t spp, std::uint32_t seed, int threads = 0,
-                                                    WeightObserver* observer = nullptr) {
+[[nodiscard]] inline std::vector<float> render_bdpt(const World& world, IntegratorSettings settings, std::uint32_t spp,
+                                                    std::uint32_t seed, int threads = 0) {
+    settings.merging.at = MergeAt::Nothing;
     const ThreadPool pool(threads);
     const std::atomic<bool> stop{false};
-    return render(world, BdptIntegrator(settings, observer), whole_image(kAgreementWidth, kAgreementHeight, spp, seed),
-                  pool, stop, {})
+    return render(world, BdptIntegrator(settings), whole_image(kAgreementWidth, kAgreementHeight, spp, seed), pool,
+                  stop, {})
         .film.resolve();
 }
 

@@ -1,8 +1,9 @@
 #include "integrator/bdpt/weight_comparison.h"
 
-#include "integrator/bdpt/bdpt_integrator.h"
+#include "integrator/bdpt/made_paths.h"
 #include "integrator/bdpt/recursive_weights.h"
 #include "integrator/bdpt/reference_weights.h"
+#include "wave/subpath/subpath_wave.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,7 @@ float shortest_edge(const CompletePath& path) {
 }
 
 float least_height(const CompletePath& path) {
-    const auto height = [](const PathVertex& vertex, const Vec3f& edge) {
+    const auto height = [](const WalkedVertex& vertex, const Vec3f& edge) {
         return length(edge) * vertex.cosine(normalize(edge));
     };
     float least = height(*path.inner.back(), path.camera.lens - path.inner.back()->position);
@@ -49,13 +50,13 @@ float least_height(const CompletePath& path) {
     return least;
 }
 
-class Comparison final : public WeightObserver {
+class Comparison {
   public:
     explicit Comparison(float short_edge) : short_edge_(short_edge) {}
 
-    void on_weight(const SubpathJob& job, const CompletePath& path, double weight) override {
-        const std::vector<double> reference = reference_weights(job, path);
-        const std::vector<double> all = recursive_weights(job, path);
+    void add(const MisContext& mis, const CompletePath& path, double weight) {
+        const std::vector<double> reference = reference_weights(mis, path);
+        const std::vector<double> all = recursive_weights(mis, path);
         const double sum = std::accumulate(all.begin(), all.end(), 0.0);
         double error = std::max(std::abs(weight - all[path.s]), std::abs(sum - 1.0));
         for (std::size_t s = 0; s < all.size(); ++s) error = std::max(error, std::abs(all[s] - reference[s]));
@@ -87,7 +88,7 @@ class Comparison final : public WeightObserver {
   private:
     [[nodiscard]] bool is_well_conditioned(const CompletePath& path) const {
         bool is_well = shortest_edge(path) >= short_edge_;
-        const auto see = [&](const PathVertex& vertex, const Vec3f& edge) {
+        const auto see = [&](const WalkedVertex& vertex, const Vec3f& edge) {
             is_well = is_well && vertex.cosine(normalize(edge)) >= kSmallCosine;
         };
         for (std::size_t i = 0; i + 1 < path.inner.size(); ++i) {
@@ -109,20 +110,18 @@ std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuris
                                  std::span<const TileJob> jobs, std::size_t paths, float short_edge) {
     Comparison comparison(short_edge);
     lengths.min_depth = 1;
-    const BdptIntegrator integrator({.lengths = lengths, .heuristic = heuristic}, &comparison);
-    const auto scratch = integrator.make_scratch();
-    RenderCounters counters;
+    const IntegratorSettings settings{.lengths = lengths, .heuristic = heuristic};
     for (std::uint32_t seed = 0; comparison.paths < paths; ++seed) {
         TileJob job = jobs[seed % jobs.size()];
         job.seed = seed;
         job.merging = make_merging(world, job.full_width, job.full_height, static_cast<double>(job.window.area()), 0,
                                    {.at = merge});
-        TileBuffer tile;
-        tile.reset(job.rect);
+        const MisContext mis = mis_context(world, job, settings);
         const std::size_t before = comparison.paths;
-        integrator.render_tile(world, job, *scratch, tile, counters);
+        for_each_path(world, job, settings,
+                      [&](const CompletePath& path, double weight) { comparison.add(mis, path, weight); });
         if (comparison.paths > before) continue;
-        ADD_FAILURE() << "a render without paths";
+        ADD_FAILURE() << "samples without paths";
         return 0;
     }
     EXPECT_LE(comparison.different_without_excuse, comparison.paths / 10'000) << comparison.worst_path;

@@ -1,10 +1,10 @@
 // The recursion of the weights against their definition, over the paths of rooms with every kind of light, material
 // and camera.
 #include "integrator/agreement_cases.h"
-#include "integrator/bdpt/bdpt_integrator.h"
+#include "integrator/bdpt/made_paths.h"
 #include "integrator/bdpt/reference_weights.h"
-#include "integrator/bdpt/render_bdpt.h"
 #include "integrator/bdpt/weight_comparison.h"
+#include "wave/subpath/subpath_wave.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,33 +76,6 @@ INSTANTIATE_TEST_SUITE_P(Rooms, MergingWeights,
                                          MergingRoom{"LampPlastic", MergeAt::Everywhere}),
                          name_of_merging_room);
 
-/// Of the paths of a crop, holds the weights of their strategies against those in a render of the whole image.
-class CropObserver final : public WeightObserver {
-  public:
-    /// All must outlive it.
-    CropObserver(const World& world, const TileJob& whole, const PathLengths& lengths)
-        : whole_{world, whole, lengths, Raised{Heuristic::Balance}, {}, {}} {}
-
-    void on_weight(const SubpathJob& job, const CompletePath& path, double) override {
-        const std::vector<double> in_crop = reference_weights(job, path);
-        const std::vector<double> in_whole = reference_weights(whole_, path);
-        const std::size_t last = path.inner.size() + 1;
-        if (!(in_whole[last] > 1e-6)) return;
-        for (std::size_t s = 0; s < last; ++s) {
-            if (!(in_whole[s] > 1e-6)) continue;
-            const double expected = kPixelsOverThoseOfTheCrop * in_whole[s] / in_whole[last];
-            worst = std::max(worst, std::abs(in_crop[s] / in_crop[last] / expected - 1.0));
-            ++compared;
-        }
-    }
-
-    double worst = 0.0;  ///< relative error of a ratio of two weights
-    std::size_t compared = 0;
-
-  private:
-    SubpathJob whole_;
-};
-
 // A crop has a light path for each of its camera samples, and those all start in it: per area of the film strategies
 // from the eye have more samples than one from the light, as many times as the film is larger. Images do not tell: any
 // factor makes the same one, but with more noise.
@@ -111,15 +84,26 @@ TEST(BdptWeightsOfACrop, CountItsCameraSamples) {
     const World world = agreement_world(room);
     const PixelFilter filter(FilterShape::Box);
     const TileJob whole = job_of(kWholeImage, 0, filter);
-    CropObserver observer(world, whole, room.lengths);
-    const BdptIntegrator integrator({.lengths = room.lengths, .heuristic = Heuristic::Balance}, &observer);
-    const auto scratch = integrator.make_scratch();
-    TileBuffer tile;
-    tile.reset(kCrop);
-    RenderCounters counters;
-    integrator.render_tile(world, job_of(kCrop, 0, filter), *scratch, tile, counters);
-    EXPECT_GT(observer.compared, 1000u);
-    EXPECT_LT(observer.worst, 1e-6);
+    const TileJob crop = job_of(kCrop, 0, filter);
+    const IntegratorSettings settings{.lengths = room.lengths, .heuristic = Heuristic::Balance};
+    const MisContext of_crop = mis_context(world, crop, settings);
+    const MisContext of_whole = mis_context(world, whole, settings);
+    double worst = 0.0;  // relative error of a ratio of two weights
+    std::size_t compared = 0;
+    for_each_path(world, crop, settings, [&](const CompletePath& path, double) {
+        const std::vector<double> in_crop = reference_weights(of_crop, path);
+        const std::vector<double> in_whole = reference_weights(of_whole, path);
+        const std::size_t last = path.inner.size() + 1;
+        if (!(in_whole[last] > 1e-6)) return;
+        for (std::size_t s = 0; s < last; ++s) {
+            if (!(in_whole[s] > 1e-6)) continue;
+            const double expected = kPixelsOverThoseOfTheCrop * in_whole[s] / in_whole[last];
+            worst = std::max(worst, std::abs(in_crop[s] / in_crop[last] / expected - 1.0));
+            ++compared;
+        }
+    });
+    EXPECT_GT(compared, 1000u);
+    EXPECT_LT(worst, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BdptWeights, testing::ValuesIn(agreement_cases()),

@@ -19,18 +19,18 @@ namespace {
 struct History {
     int edges = 1;
     bool after_delta = true;
-    bool only_delta = true;
+    bool only_deltas = true;
     bool is_direct = true;
 
     void scatter(bool is_delta, int more_edges) {
         edges += more_edges;
         after_delta = is_delta;
-        is_direct = only_delta;
-        only_delta = only_delta && is_delta;
+        is_direct = only_deltas;
+        only_deltas = only_deltas && is_delta;
     }
     [[nodiscard]] std::uint32_t bits() const {
         return static_cast<std::uint32_t>(edges) * path_history::kOneEdge |
-               (after_delta ? path_history::kUnsampled : 0u) | (only_delta ? path_history::kOnlyDelta : 0u) |
+               (after_delta ? path_history::kUnsampled : 0u) | (only_deltas ? path_history::kOnlyDeltas : 0u) |
                (is_direct ? path_history::kIsDirect : 0u);
     }
 };
@@ -128,7 +128,7 @@ TEST(PathColumns, HoldTheRaysThatBeginAtTheEye) {
         EXPECT_EQ(columns->key(i).pixel_seed, samples[i].key.pixel_seed);
         EXPECT_EQ(columns->key(i).index, samples[i].key.index);
         EXPECT_EQ(columns->throughput[i], Rgb(1.0f));
-        EXPECT_EQ(columns->eta_scale[i], 1.0f);
+        EXPECT_EQ(columns->roulette_scale[i], 1.0f);
         EXPECT_TRUE(columns->is(path_history::kUnsampled, i));
         EXPECT_EQ(columns->edges(i), 1);
     }

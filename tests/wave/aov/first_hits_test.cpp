@@ -184,6 +184,26 @@ TEST(FirstHits, LosslessGlassHasAnAlbedoOfOne) {
     }
 }
 
+// Glass in water, which the camera is in, too: what the glass mirrors depends on both indices.
+TEST(FirstHits, TheLayerAlbedoIsWhatTheIntegratorOfThatNameShows) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = kAgreementWidth;
+    scene.settings.film.height = kAgreementHeight;
+    MaterialDesc glass;
+    glass.override_model = DielectricDesc{1.8f, 0.3f};
+    MaterialDesc water;
+    water.override_model = DielectricDesc{1.33f, 0.0f};
+    add(scene, sphere({0, 0, -3}, 1.5f, 3, Facing::Outwards), glass);
+    add(scene, sphere({0, 0, 0}, 9.0f, 3, Facing::Outwards), water);
+    const World world = compile(std::move(scene));
+    AgreementCase room{"GlassInWater", {}};
+    room.spp = 4;
+    const Film film = render_layers(world, "albedo", room, layers_of({FirstHitValue::Albedo}, {}), 1).film;
+    const std::vector<float> layer = film.resolve_values(0, 3);
+    const std::vector<float> image = film.resolve();
+    for (std::size_t i = 0; i < layer.size(); ++i) EXPECT_NEAR(layer[i], image[i / 3 * 4 + i % 3], 1e-5f);
+}
+
 /// Returns the values in the middle pixel of a scene with a wall that faces the camera 2 m before it and is in
 /// `places` while the shutter is open; `camera_way` is the camera's own.
 std::vector<float> values_of_wall(std::span<const Vec3f> places, const Vec3f& camera_way,

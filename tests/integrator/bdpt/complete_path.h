@@ -1,13 +1,14 @@
 // A path from a light to the lens, as a strategy of bidirectional path tracing has made it.
 #pragma once
 
-#include "wave/subpath/subpath_wave.h"
+#include "transport/mis.h"
+#include "transport/vertex.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <vector>
 
-namespace etendue {
+namespace etendue::test {
 
 /// Describes the first vertex of a path, on its light.
 struct PathLightEnd {
@@ -19,12 +20,23 @@ struct PathLightEnd {
     bool is_reached_directly = true;  ///< by an eye subpath, if that made the whole path
 };
 
+/// Holds a vertex between the light and the lens, and how its subpath came to it and left it.
+struct WalkedVertex : Vertex {
+    int index = 1;                     ///< vertices of its subpath before it
+    bool is_reached_directly = true;   ///< false if boundaries that other bodies hide lie before it
+    bool is_left_by_delta = false;     ///< the subpath went on by one
+    float delta_reverse_ratio = 1.0f;  ///< BsdfSample::reverse_ratio of the delta by which it was left
+    SubpathDensities densities{};
+
+    [[nodiscard]] bool is_on_surface() const { return kind == Kind::Surface; }
+};
+
 /// Describes a path that the strategy with `s` vertices from the light has made.
 struct CompletePath {
     PathLightEnd end;
-    std::span<const PathVertex* const> inner;  ///< from the light to the lens, without the vertices there; not empty
+    std::vector<const WalkedVertex*> inner;  ///< from the light to the lens, without the vertices there; not empty
     std::size_t s = 0;
     CameraConnection camera;  ///< how the camera sees the last of `inner`
 };
 
-}  // namespace etendue
+}  // namespace etendue::test

@@ -1,4 +1,4 @@
-// Connections that wait for their rays: contributions that count if nothing is in the way.
+// Contributions that count if nothing is in the way of their rays, and wait for these.
 #pragma once
 
 #include "core/ray.h"
@@ -16,8 +16,8 @@
 
 namespace etendue {
 
-/// Connections to samples, of as many paths as `Wide` has lanes and without shares of expressions.
-struct WideConnections {
+/// Holds contributions to samples with their rays, of as many paths as `Wide` has lanes, without shares of expressions.
+struct WideShadowRays {
     Imath::Vec3<Wide> origin, direction;
     Wide t_max, time;
     WideBits alpha_key;
@@ -32,17 +32,17 @@ struct SplatPlace {
     float depth = 0.0f;
 };
 
-class Connections {
+class ShadowRayQueue {
   public:
     /// `kind` is that of their rays.
-    explicit Connections(RayKind kind) : kind_(kind) {}
+    explicit ShadowRayQueue(RayKind kind) : kind_(kind) {}
 
     /// Has `contribution` go to the light of sample `slot` if nothing is in the way of `ray`; expressions have `shares`
     /// of it.
     void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                    std::span<const ExpressionShare> shares);
     /// Has the contributions of the lanes in `which` go to the samples in their slots if nothing is in the way.
-    void to_sample(const WideConnections& connections, WideMask which);
+    void to_sample(const WideShadowRays& connections, WideMask which);
     /// Has `splat`, which the light path of sample `slot` has made, go to the film if nothing is in the way of `ray`;
     /// expressions have `shares` of it.
     void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
@@ -50,7 +50,7 @@ class Connections {
     /// Has the contributions of the lanes in `which` go to the film if nothing is in the way, each to the place that
     /// `place_of(lane)` returns.
     template <typename PlaceOf>
-    void to_film(const WideConnections& connections, WideMask which, const PlaceOf& place_of) {
+    void to_film(const WideShadowRays& connections, WideMask which, const PlaceOf& place_of) {
         to_sample(connections, which);
         for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
             if (which[lane]) places_.push_back(place_of(lane));

@@ -1,5 +1,6 @@
-// Connections that come one by one and many at a time, among each other: what arrives is what was queued, in its order.
-#include "wave/connections.h"
+// Contributions that come one by one and many at a time, among each other: what arrives is what was queued, in its
+// order.
+#include "wave/shadow_ray_queue.h"
 
 #include "support/random.h"
 #include "world/test_scene.h"
@@ -96,14 +97,14 @@ class ConnectionsTest : public testing::Test {
                 queued_.push_back(one);
             }
         }
-        const WideConnections wide{.origin = origin,
-                                   .direction = direction,
-                                   .t_max = t_max,
-                                   .time = 0.0f,
-                                   .alpha_key = 0u,
-                                   .slot = WideBits::load(slots.data()),
-                                   .contribution = value,
-                                   .is_direct = is_direct != Wide(0.0f)};
+        const WideShadowRays wide{.origin = origin,
+                                  .direction = direction,
+                                  .t_max = t_max,
+                                  .time = 0.0f,
+                                  .alpha_key = 0u,
+                                  .slot = WideBits::load(slots.data()),
+                                  .contribution = value,
+                                  .is_direct = is_direct != Wide(0.0f)};
         const WideMask which = is_asked_for != Wide(0.0f);
         if (to_film)
             connections_.to_film(wide, which, [&](std::size_t lane) { return lanes[lane].place; });
@@ -126,7 +127,7 @@ class ConnectionsTest : public testing::Test {
     SampleLight light_;
     TileBuffer tile_;
     RenderCounters counters_;
-    Connections connections_{RayKind::Shadow};
+    ShadowRayQueue connections_{RayKind::Shadow};
     std::vector<Queued> queued_;
 };
 

@@ -1,4 +1,4 @@
-#include "wave/connections.h"
+#include "wave/shadow_ray_queue.h"
 
 #include "wave/film_repeats.h"
 #include "wave/profile/wave_profile.h"
@@ -9,22 +9,22 @@
 
 namespace etendue {
 
-std::size_t Connections::bytes() const {
+std::size_t ShadowRayQueue::bytes() const {
     std::size_t bytes = vector_bytes(places_, shares_, occluded_);
     for (const auto& column : floats_) bytes += vector_bytes(column);
     for (const auto& column : bits_) bytes += vector_bytes(column);
     return bytes;
 }
 
-void Connections::make_room() {
+void ShadowRayQueue::make_room() {
     const std::size_t needed = count_ + 2 * RayColumns::kPacket;
     if (needed <= floats_[0].size()) return;
     for (auto& column : floats_) column.resize(2 * needed);
     for (auto& column : bits_) column.resize(2 * needed);
 }
 
-void Connections::push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
-                       std::span<const ExpressionShare> shares) {
+void ShadowRayQueue::push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
+                          std::span<const ExpressionShare> shares) {
     if (!shares.empty()) shares_.insert(shares_.end(), shares.begin(), shares.end());
     if (rows_ == Wide::kWidth) flush();
     // Filled in where it lies: a copy of what was just written, number by number, would wait until all of that is in
@@ -50,7 +50,7 @@ void Connections::push(const Ray& ray, std::uint32_t slot, const Rgb& value, Lig
     set_bits(kEndOfShares, static_cast<std::uint32_t>(shares_.size()));
 }
 
-void Connections::flush() {
+void ShadowRayQueue::flush() {
     if (rows_ == 0) return;
     make_room();
     std::array<const float*, Wide::kWidth> rows;
@@ -63,12 +63,12 @@ void Connections::flush() {
     count_ += std::exchange(rows_, 0);
 }
 
-void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
-                            std::span<const ExpressionShare> shares) {
+void ShadowRayQueue::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
+                               std::span<const ExpressionShare> shares) {
     push(ray, slot, contribution, kind, shares);
 }
 
-void Connections::to_sample(const WideConnections& connections, WideMask which) {
+void ShadowRayQueue::to_sample(const WideShadowRays& connections, WideMask which) {
     flush();
     make_room();
     const auto put = [&](auto& column, auto lanes) { compress(lanes, which).store_unaligned(&column[count_]); };
@@ -91,20 +91,20 @@ void Connections::to_sample(const WideConnections& connections, WideMask which) 
     count_ += count(which);
 }
 
-void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
-                          std::span<const ExpressionShare> shares) {
+void ShadowRayQueue::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
+                             std::span<const ExpressionShare> shares) {
     push(ray, slot, splat.value, kind, shares);
     places_.push_back({splat.position, splat.depth});
 }
 
-RayColumns Connections::rays() const {
+RayColumns ShadowRayQueue::rays() const {
     const auto floats = [&](FloatColumn column) { return floats_[column].data(); };
     return {floats(kOriginX),    floats(kOriginY), floats(kOriginZ), floats(kDirectionX),     floats(kDirectionY),
             floats(kDirectionZ), floats(kTMax),    floats(kTime),    bits_[kAlphaKey].data(), count_};
 }
 
-void Connections::resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples,
-                          SampleLight& light, TileBuffer& tile, RenderCounters& counters) {
+void ShadowRayQueue::resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples,
+                             SampleLight& light, TileBuffer& tile, RenderCounters& counters) {
     flush();
     if (count_ == 0) return;
     occluded_.resize(count_);
