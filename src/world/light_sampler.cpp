@@ -46,7 +46,8 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
 }
 
 float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {
-    if (const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light])) return mesh->gain(triangle, point);
+    if (const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light]))
+        return mesh->gain(triangle, on_light, point);
     const ShapeLight* shape = std::get_if<ShapeLight>(&data_.lights[light]);
     return shape != nullptr ? shape->gain(on_light, point) : 1.0f;
 }

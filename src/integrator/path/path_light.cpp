@@ -83,12 +83,14 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
     LaneList singly;
     std::array<const MeshLight*, PathBlock::kSize> meshes;
     std::array<Vec3f, PathBlock::kSize> points;
+    std::array<Vec2f, PathBlock::kSize> u_direction;
     for (std::size_t place = 0; place < count; ++place) {
         const std::size_t k = paths[place];
         const std::uint32_t light = block_.paths[k].light = choices[place].light;
         meshes[place] = world.lights().even_mesh(light);
         points[place] = block_.lanes.position[k];
         u[place] = block_.light_triangle[k];
+        u_direction[place] = block_.light_direction[k];
         const bool is_mesh = meshes[place] != nullptr;
         const bool is_environment = light == world.environment().light();
         by_mesh.add_if(is_mesh, place);
@@ -96,19 +98,16 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
         singly.add_if(!is_mesh && !is_environment, place);
     }
     std::array<MeshLight::TriangleChoice, PathBlock::kSize> triangles;
-    MeshLight::choose_triangles(std::span(meshes).first(count), points, u, triangles);
+    MeshLight::choose_triangles(std::span(meshes).first(count), points, u, u_direction, triangles);
     for (const std::size_t place : by_mesh) {
         const std::size_t k = paths[place];
         const MeshLight& mesh = *meshes[place];
         block_.lanes.front.set(k, mesh, triangles[place]);
+        block_.lanes.u_light.set(k, triangles[place].u);
         block_.lanes.expected_samples.set(k, choices[place].probability);
         block_.lanes.light_radiance.set(k, mesh.radiance());
     }
-    if (!by_mesh.empty()) {
-        for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
-            block_.lanes.u_light.store(l, block_.light_direction.load(l));
-        block_.lanes.sample_mesh_lights(block_.count);
-    }
+    if (!by_mesh.empty()) block_.lanes.sample_mesh_lights(block_.count);
     if (!by_environment.empty()) {
         const std::size_t samples = by_environment.size();
         for (std::size_t i = 0; i < samples; ++i) u[i] = block_.light_direction[paths[by_environment[i]]];
