@@ -55,7 +55,7 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
                                 .cos_light = cos_light},
                                arrived);
     else if (state.is_direct && light != kNone)
-        sums = sums_at_seen_emitter(parts_.job.mis(), light, arrived);
+        sums = sums_at_seen_emitter(parts_.job.mis(), light, point.position, arrived);
     add(state, emitted, sums,
         {.light = light,
          .triangle = point.triangle,
