@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace etendue {
@@ -32,6 +33,7 @@ MeshLight::MeshLight(const std::vector<LightTriangle>& triangles, Rgb radiance, 
     }
     area_ = static_cast<float>(total);
     by_area_ = AliasTable(areas);
+    rectangle_ = LightRectangle::find(triangles);
     if (!two_sided_) pair_opposites(areas);
 }
 
@@ -50,7 +52,8 @@ void MeshLight::pair_opposites(std::span<const double> areas) {
 }
 
 void MeshLight::choose_triangles(std::span<const MeshLight* const> lights, std::span<const Vec3f> points,
-                                 std::span<const Vec2f> u_triangle, std::span<TriangleChoice> choices) {
+                                 std::span<const Vec2f> u_triangle, std::span<const Vec2f> u,
+                                 std::span<TriangleChoice> choices) {
     const auto for_each = [lights](const auto& step) {
         for (std::size_t i = 0; i < lights.size(); ++i)
             if (lights[i] != nullptr) step(*lights[i], i);
@@ -64,13 +67,40 @@ void MeshLight::choose_triangles(std::span<const MeshLight* const> lights, std::
         __builtin_prefetch(&light.faces_[light.faces_[choices[i].triangle].opposite]);
     });
     for_each([&](const MeshLight& light, std::size_t i) {
-        choices[i] = light.choose_of_pair(choices[i].triangle, points[i]);
+        choices[i] = light.rectangle_ ? light.choose_of_rectangle(points[i], u[i])
+                                      : light.choose_of_pair(choices[i].triangle, points[i], u[i]);
     });
 }
 
+MeshLight::TriangleChoice MeshLight::choose_of_rectangle(const Vec3f& point, Vec2f u) const {
+    const std::optional<SphericalRectangle> seen = rectangle_->seen_from(point);
+    const auto [triangle, b] = rectangle_->place(seen ? seen->sample(u) : u);
+    TriangleChoice choice{triangle, 1.0f, triangle_to_square(b)};
+    if (!seen) return choice;
+    const Face& face = faces_[triangle];
+    choice.gain =
+        gain_by_solid_angle(triangle, face.p0 + face.edge1 * b.x + face.edge2 * b.y, point, seen->solid_angle());
+    return choice;
+}
+
+float MeshLight::gain_of_rectangle(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {
+    const std::optional<SphericalRectangle> seen = rectangle_->seen_from(point);
+    return seen ? gain_by_solid_angle(triangle, on_light, point, seen->solid_angle()) : 1.0f;
+}
+
+float MeshLight::gain_by_solid_angle(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point,
+                                     double solid_angle) const {
+    // Not 0 in the plane of the rectangle, where nothing is seen of it: others divide by it.
+    constexpr float kLeastCosine = 1e-12f;
+    const Vec3f to_point = point - on_light;
+    const float squared = std::max(length_squared(to_point), std::numeric_limits<float>::min());
+    const float cosine = std::max(kLeastCosine, std::abs(dot(faces_[triangle].normal, to_point)) / std::sqrt(squared));
+    return area_ * cosine / (squared * static_cast<float>(solid_angle));
+}
+
 LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const {
-    const TriangleChoice choice = choose_triangle(point, u_triangle);
-    const LightTriangleSample<float> on_triangle = front(choice).sample(point, u);
+    const TriangleChoice choice = choose_triangle(point, u_triangle, u);
+    const LightTriangleSample<float> on_triangle = front(choice).sample(point, choice.u);
     if (!(on_triangle.distance > 0.0f)) return {};
     LightSample sample;
     sample.distance = on_triangle.distance;
@@ -115,7 +145,11 @@ float MeshLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&)
 }
 
 float MeshLight::pdf_solid_angle(std::uint32_t triangle, const Vec3f& point, float distance, float cos_light) const {
-    return any_front().pdf_solid_angle(distance, cos_light) * gain(triangle, point);
+    const float by_area = any_front().pdf_solid_angle(distance, cos_light);
+    if (!rectangle_) return by_area * gain_of_pair(triangle, point);
+    const std::optional<SphericalRectangle> seen = rectangle_->seen_from(point);
+    if (!seen || !(by_area > 0.0f)) return by_area;
+    return static_cast<float>(1.0 / seen->solid_angle());
 }
 
 float MeshLight::power(float) const {

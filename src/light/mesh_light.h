@@ -2,8 +2,8 @@
 //
 // For a lit point half of a closed lamp would be chosen in vain, as it faces away. So triangles that face opposite ways
 // are paired where only their fronts emit, and a sample that falls on one which faces away moves to the other, if that
-// faces the point: where only one of two faces it, that one has the chance of both. Light subpaths leave all of them by
-// area.
+// faces the point: where only one of two faces it, that one has the chance of both. Two triangles that make a rectangle
+// are sampled as one (light/light_rectangle.h). Light subpaths leave all of them by area.
 //
 // Radiance that varies over the mesh (textures, partial transparency) is the World's to evaluate at the sampled point:
 // the same code that evaluates it where a ray hits, so that both strategies of MIS agree.
@@ -15,7 +15,9 @@
 #include "light/emission_sample.h"
 #include "light/light_aim.h"
 #include "light/light_bounds.h"
+#include "light/light_rectangle.h"
 #include "light/light_sample.h"
+#include "light/light_triangle.h"
 #include "sampling/alias_table.h"
 #include "sampling/warp.h"
 
@@ -26,11 +28,6 @@
 #include <vector>
 
 namespace etendue {
-
-/// A triangle in world space.
-struct LightTriangle {
-    Vec3f p0, edge1, edge2;
-};
 
 /// A point of a triangle of a mesh light as the lit point sees it. A template of its lane type, see core/lane.h.
 template <typename T>
@@ -95,28 +92,26 @@ class MeshLight {
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const;
     struct TriangleChoice {
         std::uint32_t triangle;
-        float gain;  ///< factor of the triangle's density, as `gain()` says
+        float gain;  ///< factor of the density at the point, as `gain()` says
+        Vec2f u;     ///< numbers for the point on the triangle
     };
-    /// The triangle that `sample` chooses for `point` with `u_triangle`.
-    [[nodiscard]] TriangleChoice choose_triangle(const Vec3f& point, Vec2f u_triangle) const {
-        return choose_of_pair(by_area_.sample(u_triangle).index, point);
+    /// The triangle that `sample` chooses for `point` with `u_triangle`, or of a rectangle with `u`.
+    [[nodiscard]] TriangleChoice choose_triangle(const Vec3f& point, Vec2f u_triangle, Vec2f u) const {
+        return rectangle_ ? choose_of_rectangle(point, u) : choose_of_pair(by_area_.sample(u_triangle).index, point, u);
     }
     /// Chooses a triangle as `choose_triangle` does for each of many lights, with its point and its numbers, of which
     /// there have to be as many; choices of those that are null stay as they are. What a step reads has been fetched in
     /// the one before: tables and triangles of large lights are far apart in memory.
     static void choose_triangles(std::span<const MeshLight* const> lights, std::span<const Vec3f> points,
-                                 std::span<const Vec2f> u_triangle, std::span<TriangleChoice> choices);
-    /// Density of the samples for `point` on this triangle over that by area. `point` has to be the very one, not one
-    /// moved off its surface: of a triangle in whose plane it lies that may see another side.
-    [[nodiscard]] float gain(std::uint32_t triangle, const Vec3f& point) const {
-        const Face& face = faces_[triangle];
-        if (face.opposite == triangle) return 1.0f;
-        const bool is_seen = face.is_seen_from(point);
-        if (is_seen == faces_[face.opposite].is_seen_from(point)) return 1.0f;
-        return is_seen ? face.gain : 0.0f;
+                                 std::span<const Vec2f> u_triangle, std::span<const Vec2f> u,
+                                 std::span<TriangleChoice> choices);
+    /// Density of the samples for `point` at `on_light`, on this triangle, over that by area. `point` has to be the
+    /// very one, not one moved off its surface: of a triangle in whose plane it lies that may see another side.
+    [[nodiscard]] float gain(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {
+        return rectangle_ ? gain_of_rectangle(triangle, on_light, point) : gain_of_pair(triangle, point);
     }
-    /// True if which triangles are sampled depends on the point.
-    [[nodiscard]] bool has_opposites() const { return has_opposites_; }
+    /// Returns whether which points are sampled depends on what they are for.
+    [[nodiscard]] bool depends_on_point() const { return has_opposites_ || rectangle_; }
     [[nodiscard]] LightTriangleFront<float> front(const TriangleChoice& choice) const {
         const Face& face = faces_[choice.triangle];
         return {face.p0, face.edge1, face.edge2, face.normal, face.clearance, area_ / choice.gain, back()};
@@ -128,8 +123,7 @@ class MeshLight {
     /// Returns the radiance of the front, W/(m² sr).
     [[nodiscard]] const Rgb& radiance() const { return radiance_; }
     /// Density of `sample` for a hit of this triangle at `distance` from `point`, where `cos_light` is the cosine
-    /// between the geometric normal and the direction back to the point: the gain of d² / (A |cos|). 0 for the back of
-    /// a one-sided light.
+    /// between the geometric normal and the direction back to the point. 0 for the back of a one-sided light.
     [[nodiscard]] float pdf_solid_angle(std::uint32_t triangle, const Vec3f& point, float distance,
                                         float cos_light) const;
     /// Uniform over the area, by the cosine over the directions of each side that emits, within the beam.
@@ -171,14 +165,26 @@ class MeshLight {
 
     void pair_opposites(std::span<const double> areas);
     /// Chooses of this triangle and its opposite the one that alone faces the point; else the triangle itself.
-    [[nodiscard]] TriangleChoice choose_of_pair(std::uint32_t triangle, const Vec3f& point) const {
+    [[nodiscard]] TriangleChoice choose_of_pair(std::uint32_t triangle, const Vec3f& point, Vec2f u) const {
         const std::uint32_t other = faces_[triangle].opposite;
-        if (other == triangle) return {triangle, 1.0f};
+        if (other == triangle) return {triangle, 1.0f, u};
         const bool is_seen = faces_[triangle].is_seen_from(point);
-        if (is_seen == faces_[other].is_seen_from(point)) return {triangle, 1.0f};
+        if (is_seen == faces_[other].is_seen_from(point)) return {triangle, 1.0f, u};
         const std::uint32_t chosen = is_seen ? triangle : other;
-        return {chosen, faces_[chosen].gain};
+        return {chosen, faces_[chosen].gain, u};
     }
+    [[nodiscard]] float gain_of_pair(std::uint32_t triangle, const Vec3f& point) const {
+        const Face& face = faces_[triangle];
+        if (face.opposite == triangle) return 1.0f;
+        const bool is_seen = face.is_seen_from(point);
+        if (is_seen == faces_[face.opposite].is_seen_from(point)) return 1.0f;
+        return is_seen ? face.gain : 0.0f;
+    }
+    [[nodiscard]] TriangleChoice choose_of_rectangle(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] float gain_of_rectangle(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const;
+    /// Returns the gain where the rectangle is seen under `solid_angle`.
+    [[nodiscard]] float gain_by_solid_angle(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point,
+                                            double solid_angle) const;
 
     /// Returns what the fronts of all triangles have in common: the area and the share of the back.
     [[nodiscard]] LightTriangleFront<float> any_front() const {
@@ -190,6 +196,7 @@ class MeshLight {
 
     std::vector<Face> faces_;
     AliasTable by_area_;
+    std::optional<LightRectangle> rectangle_;  ///< if the light is one
     Rgb radiance_;
     Rgb mean_radiance_;
     Beam beam_;

@@ -30,12 +30,13 @@ ShapeLight::ShapeLight(const ExactShape& shape, Rgb radiance, Rgb mean_radiance,
     }
     by_area_ = AliasTable(areas);
     area_ = static_cast<float>(total);
+    is_stretched_ = shape_.kind() == ShapeKind::Sphere && !shape_.is_round();
     if (is_flat(shape_.kind()) && !two_sided_) cone_ = {shape_.point({}).normal, std::cos(beam_.half_angle())};
 }
 
-LightTriangleFront<float> ShapeLight::any_front() const {
+LightTriangleFront<float> ShapeLight::any_front(float pdf_area) const {
     LightTriangleFront<float> any{};
-    any.area = area_;
+    any.area = 1.0f / pdf_area;
     any.back = two_sided_ ? 1.0f : 0.0f;
     return any;
 }
@@ -87,16 +88,26 @@ LightSample ShapeLight::sample(const Vec3f& point, Vec2f u_face, Vec2f u) const 
     sample.cos_light = -dot(sample.wi, on_light.normal);
     sample.triangle = triangle_of_place(place);
     sample.barycentric = place.at;
-    sample.pdf_solid_angle = pdf_solid_angle(point, sample.distance, sample.cos_light);
+    sample.pdf_solid_angle = pdf_solid_angle(point, on_light.position, sample.cos_light);
     if (!(sample.pdf_solid_angle > 0.0f)) return sample;
     sample.end = offset_origin(on_light.position, on_light.normal, clearance_along(on_light.normal), -sample.wi);
     sample.radiance = radiance_;
     return sample;
 }
 
-float ShapeLight::pdf_solid_angle(const Vec3f& point, float distance, float cos_light) const {
-    if (const std::optional<Cone> cone = cone_from(point)) return cos_light > 0.0f ? cone->pdf() : 0.0f;
-    return any_front().pdf_solid_angle(distance, cos_light);
+float ShapeLight::pdf_solid_angle(const Vec3f& point, const Vec3f& on_light, float cos_light) const {
+    const float distance = length(on_light - point);
+    const std::optional<Cone> cone = cone_from(point);
+    if (!cone) return any_front(pdf_area(on_light)).pdf_solid_angle(distance, cos_light);
+    if (!(cos_light > 0.0f)) return 0.0f;
+    return is_stretched_ ? cone->pdf() * static_cast<float>(shape_.direction_stretch((Vec3d(on_light) - Vec3d(point)) /
+                                                                                     static_cast<double>(distance)))
+                         : cone->pdf();
+}
+
+float ShapeLight::pdf_area(const Vec3f& on_light) const {
+    if (!is_stretched_) return 1.0f / area_;
+    return static_cast<float>(0.25 * std::numbers::inv_pi / shape_.stretch(shape_.to_unit(on_light).normalized()));
 }
 
 float ShapeLight::gain(const Vec3f& on_light, const Vec3f& point) const {
@@ -117,7 +128,7 @@ EmissionSample ShapeLight::sample_emission(const EmissionNumbers& u, const Scene
     EmissionSample sample;
     leave_surface(point.normal, clearance_along(point.normal), u.direction, two_sided_, beam_, sample);
     sample.position = point.position;
-    sample.pdf_position_area = 1.0f / area_;
+    sample.pdf_position_area = pdf_area(point.position);
     if (sample.pdf_direction_solid_angle > 0.0f) sample.radiance = radiance_;
     sample.triangle = triangle_of_place(place);
     sample.barycentric = place.at;
@@ -132,7 +143,7 @@ void ShapeLight::turn(EmissionSample& sample, const Vec3f& direction) const {
 }
 
 float ShapeLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&) const {
-    return any_front().emission_pdf_solid_angle(cos_light) * beam_.density_factor(cos_light);
+    return any_front(1.0f / area_).emission_pdf_solid_angle(cos_light) * beam_.density_factor(cos_light);
 }
 
 float ShapeLight::power(float) const {

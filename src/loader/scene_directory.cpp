@@ -167,6 +167,7 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
         if (!settings->file.empty()) scene.inputs.push_back(settings->file);
         apply_render_json(*settings, options.assets, scene, problems);
     }
+    if (scene.instances.empty()) problems.warning({scene.file.string(), {}}, "the scene shows no surfaces");
     note_area_lamps(lights, scene, problems);
     note_camera(scene, problems);
 }

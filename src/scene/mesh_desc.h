@@ -36,6 +36,9 @@ struct ShapeDesc {
 
     /// Returns the corners of its box.
     [[nodiscard]] std::vector<Vec3f> corners() const;
+    /// Returns the area, m², of its surface once `to_world`, which must be invertible, has placed it; of a cylinder
+    /// only if it stays a round one.
+    [[nodiscard]] double area(const Mat4f& to_world) const;
 };
 
 /// Triangles with one material, or a shape in their place. Attribute arrays are empty or as long as `positions`. Strips

@@ -156,13 +156,12 @@ std::size_t cross_sphere(const Vec3d& o, const Vec3d& d, std::array<UnitCrossing
     return 2;
 }
 
-std::size_t cross_plane(ShapeKind kind, const Vec3d& o, const Vec3d& d, std::array<UnitCrossing, 2>& found) {
+std::size_t cross_disk(const Vec3d& o, const Vec3d& d, std::array<UnitCrossing, 2>& found) {
     if (d.z == 0.0) return 0;
     const double t = -o.z / d.z;
     const double x = o.x + d.x * t;
     const double y = o.y + d.y * t;
-    const bool is_inside = kind == ShapeKind::Disk ? x * x + y * y <= 1.0 : std::max(std::abs(x), std::abs(y)) <= 1.0;
-    if (!is_inside) return 0;
+    if (!(x * x + y * y <= 1.0)) return 0;
     found[0] = {t, {0, {static_cast<float>(x), static_cast<float>(y)}}, {0.0, 0.0, -1.0}};
     return 1;
 }
@@ -199,6 +198,58 @@ std::size_t cross_cylinder(const Vec3d& o, const Vec3d& d, std::array<UnitCrossi
     return 2;
 }
 
+double determinant(const Imath::M44d& m) {
+    return turned(m, {1.0, 0.0, 0.0}).dot(turned(m, {0.0, 1.0, 0.0}).cross(turned(m, {0.0, 0.0, 1.0})));
+}
+
+/// Returns the squares of the semi-axes of the ellipsoid that these vectors span, by size: the eigenvalues of their
+/// Gram matrix (Smith, "Eigenvalues of a Symmetric 3 × 3 Matrix", CACM 4(4), 1961).
+std::array<double, 3> squared_semi_axes(const std::array<Vec3d, 3>& v) {
+    const double mean = (v[0].length2() + v[1].length2() + v[2].length2()) / 3.0;
+    Vec3d rows[3];
+    double spread = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            rows[i][j] = v[static_cast<std::size_t>(i)].dot(v[static_cast<std::size_t>(j)]) - (i == j ? mean : 0.0);
+            spread += rows[i][j] * rows[i][j] / 6.0;
+        }
+    if (!(spread > 0.0)) return {mean, mean, mean};
+    const double p = std::sqrt(spread);
+    const double half = 0.5 * (rows[0] / p).dot((rows[1] / p).cross(rows[2] / p));
+    const double angle = std::acos(std::clamp(half, -1.0, 1.0)) / 3.0;
+    const double most = mean + 2.0 * p * std::cos(angle);
+    const double least = std::max(0.0, mean + 2.0 * p * std::cos(angle + 2.0 / 3.0 * std::numbers::pi));
+    return {least, 3.0 * mean - most - least, most};
+}
+
+/// Returns Carlson's symmetric integral R_G, the mean over all unit vectors n of √(Σ xᵢ nᵢ²), of x by size. Those of
+/// the first and second kind, of which it is made, come by duplication (Carlson, "Computing Elliptic Integrals by
+/// Duplication", Numerische Mathematik 33, 1979).
+double carlson_g(const std::array<double, 3>& by_size) {
+    // The middle one has a part of its own, so that nothing cancels.
+    const double x = by_size[0];
+    const double y = by_size[2];
+    const double z = by_size[1];
+    if (!(z > 0.0)) return 0.5 * std::sqrt(y);
+    constexpr int kDoublings = 30;  // each takes what is left of differences by four
+    double a = x;
+    double b = y;
+    double c = z;
+    double sum = 0.0;
+    double scale = 1.0;
+    for (int i = 0; i < kDoublings; ++i) {
+        const double lambda = std::sqrt(a * b) + std::sqrt(b * c) + std::sqrt(c * a);
+        sum += scale / (std::sqrt(c) * (c + lambda));
+        scale *= 0.25;
+        a = 0.25 * (a + lambda);
+        b = 0.25 * (b + lambda);
+        c = 0.25 * (c + lambda);
+    }
+    const double first = 1.0 / std::sqrt(c);
+    const double second = 3.0 * sum + scale * first / c;
+    return 0.5 * (z * first - (x - z) * (y - z) * second / 3.0 + std::sqrt(x * y / z));
+}
+
 }  // namespace
 
 ExactShape::ExactShape(ShapeKind kind, const Mat4f& from_unit)
@@ -210,20 +261,9 @@ Bounds ExactShape::bounds() const {
         const float x = std::abs(from_unit_[0][i]);
         const float y = std::abs(from_unit_[1][i]);
         const float z = std::abs(from_unit_[2][i]);
-        switch (kind_) {
-            case ShapeKind::Sphere:
-                half[i] = std::hypot(x, y, z);
-                break;
-            case ShapeKind::Disk:
-                half[i] = std::hypot(x, y);
-                break;
-            case ShapeKind::Rectangle:
-                half[i] = x + y;
-                break;
-            case ShapeKind::Cylinder:
-                half[i] = std::hypot(x, z) + y;
-                break;
-        }
+        half[i] = kind_ == ShapeKind::Sphere ? std::hypot(x, y, z)
+                  : kind_ == ShapeKind::Disk ? std::hypot(x, y)
+                                             : std::hypot(x, z) + y;
     }
     const Vec3f centre(from_unit_[3][0], from_unit_[3][1], from_unit_[3][2]);
     const Vec3f error = position_error(abs_components(centre) + half);
@@ -244,17 +284,24 @@ double ExactShape::area(std::uint32_t face) const {
     const Vec3d x = turned(Imath::M44d(from_unit_), {1.0, 0.0, 0.0});
     const Vec3d y = turned(Imath::M44d(from_unit_), {0.0, 1.0, 0.0});
     const Vec3d z = turned(Imath::M44d(from_unit_), {0.0, 0.0, 1.0});
-    switch (kind_) {
-        case ShapeKind::Sphere:
-            return 4.0 * std::numbers::pi * x.cross(y).length();
-        case ShapeKind::Disk:
-            return std::numbers::pi * x.cross(y).length();
-        case ShapeKind::Rectangle:
-            return 4.0 * x.cross(y).length();
-        case ShapeKind::Cylinder:
-            break;
-    }
-    return std::numbers::pi * (face == kSide ? 4.0 * x.cross(y).length() : x.cross(z).length());
+    if (kind_ == ShapeKind::Disk) return std::numbers::pi * x.cross(y).length();
+    if (kind_ == ShapeKind::Cylinder)
+        return std::numbers::pi * (face == kSide ? 4.0 * x.cross(y).length() : x.cross(z).length());
+    // The mean of `stretch`, whose square is a quadratic form of the normal.
+    return 4.0 * std::numbers::pi * carlson_g(squared_semi_axes({y.cross(z), z.cross(x), x.cross(y)}));
+}
+
+double ExactShape::stretch(const Vec3d& unit_normal) const {
+    const Imath::M44d m(from_unit_);
+    const Vec3d x = turned(m, {1.0, 0.0, 0.0});
+    const Vec3d y = turned(m, {0.0, 1.0, 0.0});
+    const Vec3d z = turned(m, {0.0, 0.0, 1.0});
+    return (y.cross(z) * unit_normal.x + z.cross(x) * unit_normal.y + x.cross(y) * unit_normal.z).length();
+}
+
+double ExactShape::direction_stretch(const Vec3d& direction) const {
+    const double along = turned(to_unit_, direction).length();
+    return std::abs(determinant(to_unit_)) / (along * along * along);
 }
 
 bool ExactShape::is_round() const {
@@ -283,7 +330,7 @@ ShapeCrossings ExactShape::crossings(const Vec3f& origin, const Vec3f& direction
     else if (kind_ == ShapeKind::Cylinder)
         result.count = cross_cylinder(o, d, found);
     else
-        result.count = cross_plane(kind_, o, d, found);
+        result.count = cross_disk(o, d, found);
     for (std::size_t i = 0; i < result.count; ++i)
         result.all[i] = {found[i].t, found[i].place, normal_of(to_unit_, found[i].normal),
                          is_flat(kind_) ? d.z < 0.0 : i == 1};
@@ -333,7 +380,6 @@ ShapePlace ExactShape::sphere_place(const Vec3d& direction) {
 
 ShapePlace ExactShape::sample(std::uint32_t face, Vec2f u) const {
     if (kind_ == ShapeKind::Sphere) return sphere_place(in_double(square_to_sphere(u)));
-    if (kind_ == ShapeKind::Rectangle) return {face, {2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f}};
     if (kind_ == ShapeKind::Disk || face != kSide) return {face, square_to_disk(u)};
     const SinCos turn = sin_cos_turns(u.x);
     return {face, {to_square(static_cast<double>(turn.sin), static_cast<double>(turn.cos)), 2.0f * u.y - 1.0f}};

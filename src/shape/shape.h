@@ -1,4 +1,5 @@
-// Spheres, disks, rectangles and cylinders as they are, without triangles: where rays meet them, and their surface.
+// Spheres, disks and cylinders as they are, without triangles: where rays meet them, and their surface. A rectangle is
+// two triangles, which are as exact.
 //
 // A shape is the image of a unit shape under an affine transform, which makes ellipsoids of spheres as well. Rays are
 // met in the space of the unit shape, in double precision, so that the distance of a ray's origin costs nothing of the
@@ -59,7 +60,7 @@ struct ShapeCrossings {
 
 class ExactShape {
   public:
-    /// Makes the image of a unit shape under `from_unit`, which must be invertible.
+    /// Makes the image of a unit shape, any but a rectangle, under `from_unit`, which must be invertible.
     ExactShape(ShapeKind kind, const Mat4f& from_unit);
 
     [[nodiscard]] ShapeKind kind() const { return kind_; }
@@ -69,11 +70,17 @@ class ExactShape {
     [[nodiscard]] Bounds bounds() const;
     /// Returns the volume that the shape encloses; 0 if it is flat.
     [[nodiscard]] double volume() const;
-    /// Returns the area of a face, which of a sphere or a cylinder is meaningful only if it `is_round`.
+    /// Returns the area of a face, which of a cylinder is meaningful only if it `is_round`.
     [[nodiscard]] double area(std::uint32_t face) const;
     [[nodiscard]] std::uint32_t face_count() const { return kind_ == ShapeKind::Cylinder ? 3 : 1; }
     /// Returns whether it is no ellipsoid and no slanted or elliptic cylinder, but for rounding.
     [[nodiscard]] bool is_round() const;
+    /// Returns how many times as large as on the unit shape a small piece of the surface is, where the unit shape has
+    /// this unit normal.
+    [[nodiscard]] double stretch(const Vec3d& unit_normal) const;
+    /// Returns how many times as large as here a small solid angle around the unit vector `direction` is in the space
+    /// of the unit shape.
+    [[nodiscard]] double direction_stretch(const Vec3d& direction) const;
 
     /// Finds where the line from `origin` along `direction` meets the surface, before and behind the origin.
     [[nodiscard]] ShapeCrossings crossings(const Vec3f& origin, const Vec3f& direction) const;
@@ -89,7 +96,7 @@ class ExactShape {
     [[nodiscard]] Vec3d to_unit(const Vec3f& point) const;
     /// Returns the place in a direction from the centre of a unit sphere.
     [[nodiscard]] static ShapePlace sphere_place(const Vec3d& direction);
-    /// Returns the place on a face that `u`, in [0, 1)², chooses uniformly by area, if the shape is flat or `is_round`.
+    /// Returns the place on a face that `u`, in [0, 1)², chooses uniformly by the area of the unit shape.
     [[nodiscard]] ShapePlace sample(std::uint32_t face, Vec2f u) const;
 
   private:

@@ -12,7 +12,7 @@ namespace etendue {
 enum class ShapeKind {
     Sphere,
     Disk,       ///< its front towards -z
-    Rectangle,  ///< its front towards -z
+    Rectangle,  ///< its front towards -z; two triangles where rays are concerned
     Cylinder,   ///< around the y axis, closed at both ends
 };
 

@@ -39,7 +39,7 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
                                     .cos_light = dot(vertex.wo, point.geometric_normal)},
                                    arrived);
         else if (eye.is_direct && lamp != kNone)
-            sums = sums_at_seen_emitter(sample.mis, lamp, arrived);
+            sums = sums_at_seen_emitter(sample.mis, lamp, point.position, arrived);
         add({throughput * emitted, sums});
     }
     // An unlit surface lights nothing.

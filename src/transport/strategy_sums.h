@@ -53,16 +53,16 @@ struct LightPointPdfs {
 /// Returns `sums_at_light` for a lamp that an eye subpath has met: `emitted` goes back along its ray to `from`.
 [[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, const EmittedRay& emitted,
                                                   const SubpathDensities& arrived) {
-    const float pdf_area = mis.world.emitters().pdf_area(emitted.light);
+    const float pdf_area = mis.world.emitters().pdf_area(emitted.light, emitted.point);
     const float gain = mis.world.lights().gain(emitted.light, emitted.triangle, emitted.point, from);
     return sums_at_light(mis, from, emitted.light, {.sampled = pdf_area * gain, .emitted = pdf_area},
                          mis.world.emitters().pdf(emitted, mis.aims), arrived);
 }
 
-/// Returns the sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
+/// Returns the sums for a lamp that a camera ray has met at `on_light`, which the strategy (1, 1) finds, too.
 [[nodiscard]] inline StrategySums sums_at_seen_emitter(const MisContext& mis, std::uint32_t light,
-                                                       const SubpathDensities& arrived) {
-    return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitters().pdf_area(light) *
+                                                       const Vec3f& on_light, const SubpathDensities& arrived) {
+    return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitters().pdf_area(light, on_light) *
                                                              mis.world.emitters().probability(light))) *
                               arrived.a};
 }

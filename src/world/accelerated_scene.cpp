@@ -28,8 +28,6 @@ void require_still_and_small(const WorldData& data) {
     if (has_motion) refuse("something moves while the shutter is open");
     if (std::ranges::any_of(data.materials, &Material::culls_back))
         refuse("back faces are invisible (--cull-backfaces)");
-    if (std::ranges::any_of(data.geometries, [](const Geometry& geometry) { return geometry.shape.has_value(); }))
-        refuse("it has shapes (\"shapes\" in render.json), which are no triangles");
     std::size_t triangles = 0;
     for (const Instance& instance : data.instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
@@ -58,8 +56,8 @@ class AcceleratedScene::Filter final : public TriangleFilter {
     Filter(const AcceleratedScene& scene, const Ray& ray, RayEnds ends, bool passes_panes)
         : scene_(scene), ray_(ray), ends_(ends), passes_panes_(passes_panes) {}
 
-    [[nodiscard]] bool stops(const TriangleHit& met) override {
-        const Hit hit = scene_.make_hit(met, ray_.time);
+    [[nodiscard]] bool stops(const TriangleHit& met) override { return stops(scene_.make_hit(met, ray_.time)); }
+    [[nodiscard]] bool stops(const Hit& hit) {
         const WorldData& data = scene_.data_;
         const Material& material = data.materials[data.geometries[hit.geometry].material];
         if (has_end_at_camera(ends_) && !material.visible_to_camera) return false;
@@ -87,6 +85,8 @@ AcceleratedScene::AcceleratedScene(const WorldData& data, AcceleratorKind kind) 
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
             has_filters_ = has_filters_ || lets_pass(data.materials[geometry.material]);
+            if (geometry.shape)
+                shapes_.push_back({geometry.shape->placed(instance.to_world), i, instance.first_geometry + g});
             const auto corner = [&](std::uint32_t vertex) {
                 const Vec3f& p = geometry.positions[vertex];
                 return instance.baked ? p : transform_point(instance.to_world, p);
@@ -109,12 +109,38 @@ Hit AcceleratedScene::make_hit(const TriangleHit& hit, float time) const {
 
 Hit AcceleratedScene::closest(const Ray& ray, RayEnds ends, RayWork& work) const {
     Filter filter(*this, ray, ends, false);
-    return make_hit(accelerator_->closest_hit(ray, has_filters_ ? &filter : nullptr, work), ray.time);
+    const Hit hit = make_hit(accelerator_->closest_hit(ray, has_filters_ ? &filter : nullptr, work), ray.time);
+    if (shapes_.empty()) return hit;
+    const Hit on_shape = closest_shape(ray, hit.valid() ? hit.t : ray.t_max, filter);
+    return on_shape.valid() ? on_shape : hit;
+}
+
+Hit AcceleratedScene::closest_shape(const Ray& ray, float t_max, Filter& filter) const {
+    Hit nearest;
+    for (const auto& [shape, instance, geometry] : shapes_) {
+        const ShapeCrossings crossings = shape.crossings(ray.origin, ray.direction);
+        for (std::size_t c = 0; c < crossings.count; ++c) {
+            const ShapeCrossing& crossing = crossings.all[c];
+            const auto t = static_cast<float>(crossing.t);
+            if (!(t > 0.0f && t <= (nearest.valid() ? nearest.t : t_max))) continue;
+            const Hit hit{t,
+                          crossing.place.at.x,
+                          crossing.place.at.y,
+                          triangle_of_place(crossing.place, crossing.is_from_back),
+                          geometry & 0x7fffffffu,
+                          0,
+                          instance,
+                          ray.time};
+            if (filter.stops(hit)) nearest = hit;
+        }
+    }
+    return nearest;
 }
 
 std::uint8_t AcceleratedScene::occlusion(const Ray& ray, RayEnds ends, RayWork& work) const {
     Filter filter(*this, ray, ends, true);
     if (accelerator_->any_hit(ray, has_filters_ ? &filter : nullptr, work)) return kOccluded;
+    if (!shapes_.empty() && closest_shape(ray, ray.t_max, filter).valid()) return kOccluded;
     return filter.has_passed_pane ? kPassesPanes : kFree;
 }
 

@@ -25,6 +25,7 @@ struct HitAgreement {
 };
 
 /// Holds all triangles of a World in world space, instances as often as they are placed, with an accelerator over them.
+/// Rays try exact shapes one after the other besides.
 /// Partly transparent surfaces, panes, and what is hidden from the camera let the same rays pass as in Embree.
 class AcceleratedScene {
   public:
@@ -64,14 +65,23 @@ class AcceleratedScene {
         std::uint32_t geometry;
         std::uint32_t triangle;
     };
+    /// Holds a shape in world space.
+    struct PlacedShape {
+        ExactShape shape;
+        std::uint32_t instance;
+        std::uint32_t geometry;
+    };
     class Filter;
 
     [[nodiscard]] Hit make_hit(const TriangleHit& hit, float time) const;
+    /// Returns the nearest hit of a shape within (0, t_max] that `filter` lets stop the ray.
+    [[nodiscard]] Hit closest_shape(const Ray& ray, float t_max, Filter& filter) const;
 
     const WorldData& data_;
     std::vector<Triangle> triangles_;
     std::vector<Identity> identities_;  ///< of each triangle
-    bool has_filters_ = false;          ///< some surface lets some rays pass
+    std::vector<PlacedShape> shapes_;
+    bool has_filters_ = false;  ///< some surface lets some rays pass
     std::unique_ptr<const Accelerator> accelerator_;
 };
 

@@ -65,6 +65,14 @@ void shift(Mat4f& to_world, const Vec3f& by) {
 void move_along_normals(const Slot& slot, float distance, WorldData& data) {
     Instance& instance = data.instances[slot.instance];
     Geometry& geometry = data.geometries[slot.geometry];
+    if (instance.baked && geometry.shape) {
+        const Vec3f by(place(data, slot.instance, slot.geometry, 0).normal * static_cast<double>(distance));
+        Mat4f moved;
+        shift(moved, by);
+        geometry.shape = geometry.shape->placed(moved);
+        for (Vec3f& corner : geometry.positions) corner += by;
+        return;
+    }
     if (instance.baked) {
         const std::vector<Vec3f> normals = vertex_normals(geometry);
         for (std::size_t v = 0; v < normals.size(); ++v) {
@@ -74,7 +82,7 @@ void move_along_normals(const Slot& slot, float distance, WorldData& data) {
         return;
     }
     Vec3d sum(0.0);
-    for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+    for (std::uint32_t t = 0; t < touching_triangles(geometry); ++t) {
         const PlacedTriangle triangle = place(data, slot.instance, slot.geometry, t);
         if (!triangle.is_degenerate()) sum += triangle.normal * triangle.area;
     }
@@ -152,7 +160,7 @@ std::vector<Vec3f> planes_through(const WorldData& data, const Vec3f& point) {
         8.0f * clearance({1.0f, 1.0f, 1.0f}, position_error(max_components(extent, abs_components(point))));
     std::vector<Vec3f> planes;
     data.bvh->for_each_near(point, radius, [&](std::uint32_t instance, std::uint32_t geometry, std::uint32_t t) {
-        if (data.geometries[geometry].shape) return true;
+        if (t >= touching_triangles(data.geometries[geometry])) return true;
         const PlacedTriangle triangle = place(data, instance, geometry, t);
         if (triangle.is_degenerate()) return true;
         const Vec3f normal(triangle.normal);
@@ -217,7 +225,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
                       "touch, which takes longer");
         for (const Slot& slot : slots) {
             contacts[slot.index].is_anywhere = true;
-            for (std::uint32_t t = 0; t < data.geometries[slot.geometry].triangles.size(); ++t) {
+            for (std::uint32_t t = 0; t < touching_triangles(data.geometries[slot.geometry]); ++t) {
                 const float clear = triangle_plane(data, slot.instance, slot.geometry, t).clearance;
                 contacts[slot.index].reach = std::max(contacts[slot.index].reach, contact_distance(clear, clear));
             }

@@ -24,7 +24,11 @@ Geometry take_geometry(PrimitiveDesc& primitive) {
     geometry.motion = std::move(primitive.motion);
     for (VertexStep& step : geometry.motion) step.positions.reserve(step.positions.size() + 1);
     geometry.material = static_cast<std::uint32_t>(primitive.material.index);
-    if (primitive.shape) {
+    if (primitive.shape && primitive.shape->kind == ShapeKind::Rectangle) {
+        // Seen from its front, which looks along -z, the image stands upright.
+        geometry.triangles = {{0, 2, 1}, {1, 2, 3}};
+        geometry.uv0 = geometry.uv1 = {{1.0f, 1.0f}, {0.0f, 1.0f}, {1.0f, 0.0f}, {0.0f, 0.0f}};
+    } else if (primitive.shape) {
         Mat4f size;
         size.setScale(primitive.shape->half_size);
         geometry.shape = ExactShape(primitive.shape->kind, size);

@@ -103,7 +103,7 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
             const Vec3f error = max_components(mesh_position_error(geometry, instance), Vec3f(reach));
             if (geometry.shape) {
                 const ExactShape shape = geometry.shape->placed(instance.to_world);
-                if (!shape.is_round()) {
+                if (!ShapeLight::can_be(shape)) {
                     ++uneven;
                     continue;
                 }
@@ -123,8 +123,8 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
     data.has_unsampled_emitters = moving > 0 || skipped > 0 || uneven > 0;
     if (uneven > 0)
         problems.note({}, std::to_string(uneven) +
-                              " emissive ellipsoids or elliptic cylinders will be found by chance only: small ones "
-                              "give noise. Scale them evenly to have them sampled");
+                              " emissive elliptic cylinders will be found by chance only: small ones give noise. Scale "
+                              "them evenly to have them sampled");
     if (moving > 0)
         problems.note({}, std::to_string(moving) +
                               " emissive surfaces move while the shutter is open and will be found "

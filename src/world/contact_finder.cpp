@@ -70,6 +70,19 @@ int shared_vertices(const std::array<std::uint32_t, 3>& a, const std::array<std:
     return static_cast<int>(std::ranges::count_if(a, [&](std::uint32_t v) { return std::ranges::count(b, v) > 0; }));
 }
 
+/// Returns the triangle around a disk whose sides touch it.
+PlacedTriangle disk_triangle(const Geometry& geometry, const Instance& instance) {
+    const ExactShape disk = instance.baked ? *geometry.shape : geometry.shape->placed(instance.to_world);
+    PlacedTriangle around;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float turn = 2.0f / 3.0f * kPi * static_cast<float>(i);
+        around.p[i] = Vec3d(disk.point({0, {2.0f * std::cos(turn), 2.0f * std::sin(turn)}}).position);
+    }
+    around.area = 0.5 * (around.p[1] - around.p[0]).cross(around.p[2] - around.p[0]).length();
+    around.normal = Vec3d(disk.point({}).normal);
+    return around;
+}
+
 /// A surface, as far as looking for those that touch it goes.
 struct PlacedSurface {
     Slot slot;
@@ -134,7 +147,7 @@ class TouchFinder {
             for (std::uint32_t g = 0; g < data_.instances[i].geometry_count; ++g) {
                 const Instance& instance = data_.instances[i];
                 const Slot slot{instance.first_light_slot + g, i, instance.first_geometry + g};
-                const auto count = static_cast<std::uint32_t>(data_.geometries[slot.geometry].triangles.size());
+                const std::uint32_t count = touching_triangles(data_.geometries[slot.geometry]);
                 if (count == 0) continue;
                 surfaces_.push_back({slot, {}, matters(slot), count});
                 any = any || surfaces_.back().matters;
@@ -230,8 +243,12 @@ class TouchFinder {
     [[nodiscard]] Bounds bounds_of(const Instance& instance, std::uint32_t geometry_index,
                                    std::uint32_t triangle) const {
         const Geometry& geometry = data_.geometries[geometry_index];
-        Bounds bounds;  // empty of shapes, whose contacts are not looked for
-        if (geometry.shape) return bounds;
+        Bounds bounds;  // empty of shapes that are not flat, whose contacts are not looked for
+        if (geometry.shape) {
+            if (touching_triangles(geometry) > 0)
+                for (const Vec3d& p : disk_triangle(geometry, instance).p) bounds.extend(Vec3f(p));
+            return bounds;
+        }
         for (const std::uint32_t vertex : geometry.triangles[triangle])
             bounds.extend(placed(instance, geometry.positions[vertex]));
         return bounds;
@@ -370,19 +387,28 @@ class TouchFinder {
 
 }  // namespace
 
+std::uint32_t touching_triangles(const Geometry& geometry) {
+    if (geometry.shape) return geometry.shape->kind() == ShapeKind::Disk ? 1 : 0;
+    return static_cast<std::uint32_t>(geometry.triangles.size());
+}
+
 PlacedTriangle place(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
                      std::uint32_t triangle_index) {
     const Instance& instance = data.instances[instance_index];
     const Geometry& geometry = data.geometries[geometry_index];
     PlacedTriangle placed;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3f& p = geometry.positions[geometry.triangles[triangle_index][i]];
-        placed.p[i] = Vec3d(instance.baked ? p : transform_point(instance.to_world, p));
+    if (geometry.shape) {
+        placed = disk_triangle(geometry, instance);
+    } else {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3f& p = geometry.positions[geometry.triangles[triangle_index][i]];
+            placed.p[i] = Vec3d(instance.baked ? p : transform_point(instance.to_world, p));
+        }
+        const Vec3d across = (placed.p[1] - placed.p[0]).cross(placed.p[2] - placed.p[0]);
+        placed.area = 0.5 * across.length();
+        if (placed.is_degenerate()) return placed;
+        placed.normal = across / (2.0 * placed.area) * (instance.mirrors ? -1.0 : 1.0);
     }
-    const Vec3d across = (placed.p[1] - placed.p[0]).cross(placed.p[2] - placed.p[0]);
-    placed.area = 0.5 * across.length();
-    if (placed.is_degenerate()) return placed;
-    placed.normal = across / (2.0 * placed.area) * (instance.mirrors ? -1.0 : 1.0);
     placed.clearance =
         static_cast<double>(triangle_plane(data, instance_index, geometry_index, triangle_index).clearance);
     return placed;

@@ -47,6 +47,10 @@ struct Touches {
     bool is_complete = true;
 };
 
+/// Returns how many triangles of `geometry` may touch others. A disk counts as the one around it; shapes that are not
+/// flat have none.
+[[nodiscard]] std::uint32_t touching_triangles(const Geometry& geometry);
+
 [[nodiscard]] PlacedTriangle place(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
                                    std::uint32_t triangle);
 

@@ -24,7 +24,7 @@ ContactFace face_at(const WorldData& data, const Hit& hit) {
     ContactFace face{.hit = hit};
     const Instance& instance = data.instances[hit.instance];
     const Geometry& geometry = data.geometries[hit.geometry];
-    if (instance.motion != kNone || !geometry.motion.empty()) {
+    if (instance.motion != kNone || !geometry.motion.empty() || geometry.shape) {
         const SurfacePoint point =
             make_surface_point(data, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time, ConeSection{});
         face.position = point.position;
@@ -55,6 +55,14 @@ TrianglePlane triangle_plane(const WorldData& data, std::uint32_t instance_index
                              std::uint32_t triangle_index) {
     const Instance& instance = data.instances[instance_index];
     const Geometry& geometry = data.geometries[geometry_index];
+    if (geometry.shape) {
+        const ExactShape shape = instance.baked ? *geometry.shape : geometry.shape->placed(instance.to_world);
+        Vec3f extent(0.0f);
+        for (const Vec3f& corner : geometry.positions) extent = max_components(extent, abs_components(corner));
+        const Vec3f normal = shape.point(shape_place(triangle_index, {0.0f, 0.0f})).normal;
+        return {normal,
+                clearance(normal, instance.baked ? position_error(extent) : position_error(extent, instance.to_world))};
+    }
     const auto& triangle = geometry.triangles[triangle_index];
     const Vec3f& p0 = geometry.positions[triangle[0]];
     const TrianglePoint<float> point(p0, geometry.positions[triangle[1]] - p0, geometry.positions[triangle[2]] - p0,
@@ -109,7 +117,7 @@ Contacts::Contacts(const WorldData& data, std::vector<ContactSlot> slots, std::s
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
             CollectedSlot& those = collected[instance.first_light_slot + g];
             if (slot.reach == 0.0f) continue;
-            those.is_whole = slot.is_anywhere || !instance.baked;
+            those.is_whole = slot.is_anywhere || !instance.baked || geometry.shape;
             if (those.is_whole) continue;
             for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
                 Bounds bounds;

@@ -132,9 +132,9 @@ float LightEmitter::pdf(const EmittedRay& ray, bool aims) const {
                 : aim_.pdf_area(ray.point, ray.direction, own);
 }
 
-float LightEmitter::pdf_area(std::uint32_t light) const {
+float LightEmitter::pdf_area(std::uint32_t light, const Vec3f& on_light) const {
     const ShapeLight* shape = std::get_if<ShapeLight>(&data_.lights[light]);
-    return 1.0f / (shape != nullptr ? shape->area() : std::get<MeshLight>(data_.lights[light]).area());
+    return shape != nullptr ? shape->pdf_area(on_light) : 1.0f / std::get<MeshLight>(data_.lights[light]).area();
 }
 
 }  // namespace etendue

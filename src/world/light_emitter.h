@@ -64,9 +64,9 @@ class LightEmitter {
     [[nodiscard]] float pdf(const EmittedRay& ray, bool aims) const;
     /// Returns the spheres that rays are aimed at; none unless `aims`.
     [[nodiscard]] const LightAim& aim(bool aims) const { return aims ? aim_ : no_aim_; }
-    /// Returns the density per area, 1/m², without the choice, with which `sample` picks a point of the mesh or the
-    /// shape that is the light of this index.
-    [[nodiscard]] float pdf_area(std::uint32_t light) const;
+    /// Returns the density per area, 1/m², without the choice, with which `sample` picks the point `on_light` of the
+    /// mesh or the shape that is the light of this index.
+    [[nodiscard]] float pdf_area(std::uint32_t light, const Vec3f& on_light) const;
 
     /// Returns the table that chooses.
     [[nodiscard]] const LightSelector& selector() const { return selector_; }

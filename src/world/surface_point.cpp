@@ -89,6 +89,17 @@ void apply_relief(const WorldData& data, const Material& material, float bitange
                                            .trace();
 }
 
+/// Returns a point of this triangle, of which nothing else is known yet.
+SurfacePoint begin_point(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
+                         std::uint32_t triangle) {
+    SurfacePoint point;
+    point.material = &data.materials[data.geometries[geometry].material];
+    point.instance = instance;
+    point.geometry = geometry;
+    point.triangle = triangle;
+    return point;
+}
+
 /// `Moves` is false for what neither moves nor deforms, so that it does not pay for what does.
 template <bool Moves>
 SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
@@ -96,13 +107,8 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
     const Instance& instance = data.instances[instance_index];
     const Geometry& geometry = data.geometries[geometry_index];
     const auto& triangle = geometry.triangles[triangle_index];
-    const Material& material = data.materials[geometry.material];
-
-    SurfacePoint point;
-    point.material = &material;
-    point.instance = instance_index;
-    point.geometry = geometry_index;
-    point.triangle = triangle_index;
+    SurfacePoint point = begin_point(data, instance_index, geometry_index, triangle_index);
+    const Material& material = *point.material;
 
     const bool deforms = Moves && !geometry.motion.empty();
     MovedTriangle moved;
@@ -168,12 +174,8 @@ SurfacePoint make_point_of_shape(const WorldData& data, std::uint32_t instance_i
                                  const ConeSection& section) {
     const Instance& instance = data.instances[instance_index];
     const Geometry& geometry = data.geometries[geometry_index];
-    const Material& material = data.materials[geometry.material];
-    SurfacePoint point;
-    point.material = &material;
-    point.instance = instance_index;
-    point.geometry = geometry_index;
-    point.triangle = triangle_index;
+    SurfacePoint point = begin_point(data, instance_index, geometry_index, triangle_index);
+    const Material& material = *point.material;
 
     ShapePoint on_shape = geometry.shape->point(shape_place(triangle_index, barycentric));
     Vec3f extent(0.0f);

@@ -84,6 +84,97 @@ TEST(MeshLight, DirectionsHaveTheStatedDensity) {
     }
 }
 
+// The two triangles of a rectangle, in whatever order and from whichever vertex.
+TEST(MeshLight, RectanglesAreFoundAmongTriangles) {
+    const Vec3f corners[] = {{1, 2, 3}, {3, 2, 3}, {3, 2, 4}, {1, 2, 4}};
+    const auto triangle = [&](int a, int b, int c) {
+        return LightTriangle{corners[a], corners[b] - corners[a], corners[c] - corners[a]};
+    };
+    Random random(12);
+    for (int turn = 0; turn < 9; ++turn)
+        for (const bool other_diagonal : {false, true}) {
+            const int shift = other_diagonal ? 1 : 0;
+            const auto at = [&](int i) { return (i + shift) % 4; };
+            const int first[] = {at(0), at(1), at(2)};
+            const int second[] = {at(2), at(3), at(0)};
+            const int k = turn % 3;
+            const int l = turn / 3;
+            const std::vector<LightTriangle> triangles = {
+                triangle(first[k], first[(k + 1) % 3], first[(k + 2) % 3]),
+                triangle(second[l], second[(l + 1) % 3], second[(l + 2) % 3])};
+            const std::optional<LightRectangle> found = LightRectangle::find(triangles);
+            ASSERT_TRUE(found);
+            // All parts of the rectangle are places of it, and those of its quarters in its quarters.
+            double middle[3] = {0.0, 0.0, 0.0};
+            for (int i = 0; i < 400; ++i) {
+                const RectanglePlace place = found->place(random.next_2d());
+                const LightTriangle& t = triangles[place.triangle];
+                EXPECT_LE(place.barycentric.x + place.barycentric.y, 1.0f + 1e-6f);
+                const Vec3f p = t.p0 + t.edge1 * place.barycentric.x + t.edge2 * place.barycentric.y;
+                EXPECT_TRUE(p.x >= 1.0f && p.x <= 3.0f && p.z >= 3.0f && p.z <= 4.0f && p.y == 2.0f) << p;
+                for (int axis = 0; axis < 3; ++axis) middle[axis] += static_cast<double>(p[axis]) / 400.0;
+            }
+            EXPECT_NEAR(middle[0], 2.0, 0.15);
+            EXPECT_NEAR(middle[2], 3.5, 0.08);
+            EXPECT_TRUE(found->seen_from({2.0f, 0.0f, 3.5f}));
+            EXPECT_FALSE(found->seen_from({2.0f, 12.0f, 3.5f}));
+        }
+}
+
+TEST(MeshLight, OtherPairsOfTrianglesAreNoRectangles) {
+    const LightTriangle half{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+    const std::vector<LightTriangle> pairs[] = {
+        {half},
+        {half, half},
+        {half, {{2, 1, 0}, {0, -1, 0}, {-2, 0, 0}}},                                // with the other front
+        {half, {{2, 1, 0.1f}, {-2, 0, -0.1f}, {0, -1, -0.1f}}},                     // bent
+        {half, {{2, 1.5f, 0}, {-2, -0.5f, 0}, {0, -1.5f, 0}}},                      // a trapezium
+        {half, {{2, 1, 0}, {-2, 0, 0}, {-2, -1, 0}}},                               // its diagonal is another
+        {{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{3, 1, 0}, {-2, 0, 0}, {-1, -1, 0}}},  // a parallelogram
+        {{{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {{4, 0, 0}, {-2, 0, 0}, {-4, 0, 0}}}};  // without area
+    for (const std::vector<LightTriangle>& triangles : pairs) EXPECT_FALSE(LightRectangle::find(triangles));
+    EXPECT_TRUE(LightRectangle::find(std::vector<LightTriangle>{half, {{2, 1, 0}, {-2, 0, 0}, {0, -1, 0}}}));
+}
+
+// Before it, almost in its plane, and so far away that samples are by area; of one side and of both.
+TEST(MeshLight, DirectionsToRectanglesHaveTheStatedDensity) {
+    const std::vector<LightTriangle> triangles = quad_triangles({0, 3, 0}, {1.5f, 0, 0}, {0, 0, 0.5f});
+    struct Case {
+        Vec3f point;
+        bool two_sided;
+        bool is_by_solid_angle;
+    };
+    const Case cases[] = {
+        {{0.2f, 2.5f, 0.1f}, false, true}, {{1.51f, 2.98f, 0.3f}, true, true}, {{0.3f, -7, 2}, true, false}};
+    for (const auto& [point, two_sided, is_by_solid_angle] : cases) {
+        const MeshLight light = make_light(triangles, two_sided);
+        const auto sampler = [&, &point = point](Random& random) -> std::optional<Vec3f> {
+            const LightSample s = light.sample(point, random.next_2d(), random.next_2d());
+            if (!(s.pdf_solid_angle > 0.0f)) return std::nullopt;
+            return s.wi;
+        };
+        const SamplerCheck check =
+            check_sphere_sampler(sampler, [&, &point = point](const Vec3f& w) { return density(light, point, w); },
+                                 {.samples = 20'000, .tolerance = 1e-5});
+        EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, std::size(cases))) << check.chi2.str();
+        Random random(7);
+        float least = 1e9f;
+        float most = 0.0f;
+        for (int i = 0; i < 200; ++i) {
+            const LightSample s = light.sample(point, random.next_2d(), random.next_2d());
+            const LightTriangle& t = light.triangle(s.triangle);
+            const Vec3f on_light = t.p0 + t.edge1 * s.barycentric.x + t.edge2 * s.barycentric.y;
+            EXPECT_NEAR(light.pdf_solid_angle(s.triangle, point, s.distance, s.cos_light) / s.pdf_solid_angle, 1.0f,
+                        1e-3f);
+            const float per_area = s.pdf_solid_angle * std::abs(s.cos_light) / (s.distance * s.distance);
+            EXPECT_NEAR(light.gain(s.triangle, on_light, point) / (per_area * light.area()), 1.0f, 1e-3f);
+            least = std::min(least, s.pdf_solid_angle);
+            most = std::max(most, s.pdf_solid_angle);
+        }
+        EXPECT_EQ(most / least < 1.001f, is_by_solid_angle) << point;
+    }
+}
+
 TEST(MeshLight, SamplesStateTheDensityOfTheirHit) {
     const MeshLight light = make_light(quad_triangles({0, 3, 0}, {1, 0, 0}, {0, 0, 1}), true);
     Random random(3);
@@ -183,25 +274,28 @@ TEST(MeshLight, ChoosesTrianglesForManyAsForEach) {
     const MeshLight box = make_light(box_triangles({0, 3, 0}, {0.5f, 0.25f, 1}, 0.2f));
     const MeshLight quad = make_light(quad_triangles({0, 3, 0}, {1.5f, 0, 0}, {0, 0, 0.5f}));
     const std::array<const MeshLight*, 4> any = {&box, nullptr, &quad, &box};
-    constexpr MeshLight::TriangleChoice kUntouched{1234, 5.0f};
+    constexpr MeshLight::TriangleChoice kUntouched{1234, 5.0f, {0.5f, 0.25f}};
     constexpr std::size_t kCount = 200;
     std::vector<const MeshLight*> lights;
     std::vector<Vec3f> points;
     std::vector<Vec2f> u;
+    std::vector<Vec2f> u_direction;
     Random random(9);
     for (std::size_t i = 0; i < kCount; ++i) {
         lights.push_back(any[i % any.size()]);
         points.emplace_back(8.0f * random.next() - 4.0f, 6.0f * random.next(), 8.0f * random.next() - 4.0f);
         u.push_back(random.next_2d());
+        u_direction.push_back(random.next_2d());
     }
     std::vector<MeshLight::TriangleChoice> choices(kCount, kUntouched);
-    MeshLight::choose_triangles(lights, points, u, choices);
+    MeshLight::choose_triangles(lights, points, u, u_direction, choices);
     std::size_t moved = 0;
     for (std::size_t i = 0; i < kCount; ++i) {
         const MeshLight::TriangleChoice alone =
-            lights[i] != nullptr ? lights[i]->choose_triangle(points[i], u[i]) : kUntouched;
+            lights[i] != nullptr ? lights[i]->choose_triangle(points[i], u[i], u_direction[i]) : kUntouched;
         EXPECT_EQ(choices[i].triangle, alone.triangle) << i;
         EXPECT_EQ(choices[i].gain, alone.gain) << i;
+        EXPECT_EQ(choices[i].u, alone.u) << i;
         moved += lights[i] == &box && alone.gain != 1.0f ? 1 : 0;
     }
     EXPECT_GT(moved, kCount / 10) << "of the box, sides that face away give way to others";
@@ -270,6 +364,25 @@ TEST(MeshLight, ARectangleBringsItsFormFactor) {
     const TTestResult result =
         t_test(irradiance_samples(light, Vec3f(0.0f), {0, 1, 0}, 50'000, 4), M_PI * 4.0 * form_factor, 1e-4);
     EXPECT_GT(result.p_value, 0.001) << result.str();
+}
+
+// From right below, most of the light comes from a part of a large rectangle, which samples by area find by chance
+// only.
+TEST(MeshLight, ANearRectangleBringsItsFormFactorWithLittleNoise) {
+    const Light light = make_light(quad_triangles({0, 0.1f, 0}, {2.0f, 0, 0}, {0, 0, 1.0f}), true);
+    const double a = 2.0 / 0.1;
+    const double b = 1.0 / 0.1;
+    const double ra = std::sqrt(1.0 + a * a);
+    const double rb = std::sqrt(1.0 + b * b);
+    const double form_factor = 4.0 * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2.0 * M_PI);
+    const double expected = M_PI * 4.0 * form_factor;
+    const std::vector<double> samples = irradiance_samples(light, Vec3f(0.0f), {0, 1, 0}, 50'000, 4);
+    const TTestResult result = t_test(samples, expected, 1e-4 * expected);
+    EXPECT_GT(result.p_value, 0.001) << result.str();
+    double squares = 0.0;
+    for (const double sample : samples) squares += (sample / expected - 1.0) * (sample / expected - 1.0);
+    // A cosine that is uniform in [0, 1] has the variance 1/3 of its mean's square; by area it is 50.
+    EXPECT_LT(squares / 50'000, 0.4);
 }
 
 TEST(MeshLight, PowerIsRadianceTimesPiTimesAreaPerSide) {

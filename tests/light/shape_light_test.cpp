@@ -35,8 +35,8 @@ double density_of_hits(const ShapeLight& light, const Vec3f& from, const Vec3f& 
     double sum = 0.0;
     for (std::size_t i = 0; i < crossings.count; ++i)
         if (const ShapeCrossing& c = crossings.all[i]; c.t > 0.0)
-            sum += static_cast<double>(
-                light.pdf_solid_angle(from, static_cast<float>(c.t), -dot(direction, normalize(c.normal))));
+            sum += static_cast<double>(light.pdf_solid_angle(from, from + direction * static_cast<float>(c.t),
+                                                             -dot(direction, normalize(c.normal))));
     return sum;
 }
 
@@ -47,6 +47,8 @@ struct LitPoint {
 
 std::vector<LitPoint> lit_points() {
     const Mat4f ball = scaled_and_moved(Vec3f(0.7f), {0.2f, 1.0f, -0.3f});
+    Mat4f stretched = scaled_and_moved({0.9f, 0.3f, 0.6f}, {0.2f, 1.0f, -0.3f});
+    stretched[1][0] = 0.4f;  // sheared, too
     const Mat4f plate = scaled_and_moved({1.5f, 0.5f, 1.0f}, {0.0f, 0.2f, 1.0f});
     const Mat4f tube = scaled_and_moved({0.5f, 0.9f, 0.5f}, {0.0f, 1.5f, 0.0f});
     return {{shape_light(ShapeKind::Sphere, ball), {0.0f, 0.0f, 0.0f}},
@@ -54,7 +56,8 @@ std::vector<LitPoint> lit_points() {
             {shape_light(ShapeKind::Sphere, ball), {0.0f, -4.0f, 9.0f}},
             {shape_light(ShapeKind::Sphere, ball, true), {0.3f, 1.2f, -0.4f}},  // within
             {shape_light(ShapeKind::Disk, plate, true), {0.3f, 0.0f, 0.1f}},
-            {shape_light(ShapeKind::Rectangle, plate, true), {0.3f, 0.0f, 1.6f}},
+            {shape_light(ShapeKind::Sphere, stretched), {0.4f, -0.6f, 0.2f}},
+            {shape_light(ShapeKind::Sphere, stretched, true), {0.2f, 1.1f, -0.2f}},  // within
             {shape_light(ShapeKind::Cylinder, tube), {0.4f, 0.1f, 0.2f}}};
 }
 
@@ -84,11 +87,12 @@ TEST(ShapeLight, SamplesStateTheDensityOfTheirHit) {
             const ShapePoint on_light = light.shape().point(shape_place(s.triangle, s.barycentric));
             EXPECT_LT(length(point + s.wi * s.distance - on_light.position), 2e-6f * (1.0f + s.distance));
             EXPECT_NEAR(s.cos_light, -dot(s.wi, on_light.normal), 1e-6f);
-            EXPECT_EQ(light.pdf_solid_angle(point, s.distance, s.cos_light), s.pdf_solid_angle);
+            EXPECT_EQ(light.pdf_solid_angle(point, on_light.position, s.cos_light), s.pdf_solid_angle);
             const float per_area = s.pdf_solid_angle * std::abs(s.cos_light) / (s.distance * s.distance);
             // At grazing angles the cosine is known by its rounding only.
             if (std::abs(s.cos_light) < 0.03f) continue;
-            EXPECT_NEAR(light.gain(on_light.position, point) / (per_area * light.area()), 1.0f, 1e-3f);
+            const float by_area = light.pdf_area(on_light.position);
+            EXPECT_NEAR(light.gain(on_light.position, point) * by_area / per_area, 1.0f, 1e-3f);
         }
 }
 
@@ -99,7 +103,7 @@ TEST(ShapeLight, IsLitFromItsFrontOnlyUnlessTwoSided) {
     EXPECT_EQ(disk.sample({0.0f, 0.0f, 1.0f}, {0.5f, 0.5f}, {0.3f, 0.6f}).pdf_solid_angle, 0.0f);
     const ShapeLight sphere = shape_light(ShapeKind::Sphere, place);
     EXPECT_EQ(sphere.sample({0.1f, 0.2f, 0.3f}, {0.5f, 0.5f}, {0.3f, 0.6f}).pdf_solid_angle, 0.0f);
-    EXPECT_EQ(sphere.pdf_solid_angle({0.0f, 0.0f, 3.0f}, 4.0f, -0.7f), 0.0f);
+    EXPECT_EQ(sphere.pdf_solid_angle({0.0f, 0.0f, 3.0f}, {0.0f, 0.0f, -1.0f}, -0.7f), 0.0f);
 }
 
 // pi L (r / d)² on a surface that faces the middle of a sphere, exactly, from near by and from afar.

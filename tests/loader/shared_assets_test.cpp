@@ -39,7 +39,7 @@ const Expectation kBroken[] = {
     {"RecursiveNodes/RecursiveNodes.gltf", Severity::Error, "its own ancestor", "/nodes/0"},
     {"SchemaFailures/sceneWrongType.gltf", Severity::Error, "must be an integer, but is a string", "/scene"},
     {"TestNoRootNode/NoScene.gltf", Severity::Error, "refers to number 0 of /scenes, but there are 0", "/scene"},
-    {"TestNoRootNode/SceneWithoutNodes.gltf", Severity::Warning, "shows no triangles", ""},
+    {"TestNoRootNode/SceneWithoutNodes.gltf", Severity::Warning, "shows no surfaces", ""},
     {"issue_3269/texcoord_crash.gltf", Severity::Warning, "texture coordinates that a material needs", ""},
     {"wrongTypes/badArray.gltf", Severity::Error, "must be an array, but is an object", "/meshes/0/primitives"},
     {"wrongTypes/badExtension.gltf", Severity::Error, "must be an object, but is a string", "/KHR_texture_transform"},

@@ -12,7 +12,7 @@
 namespace etendue::test {
 namespace {
 
-constexpr ShapeKind kKinds[] = {ShapeKind::Sphere, ShapeKind::Disk, ShapeKind::Rectangle, ShapeKind::Cylinder};
+constexpr ShapeKind kKinds[] = {ShapeKind::Sphere, ShapeKind::Disk, ShapeKind::Cylinder};
 
 Vec3f random_vector(Random& random, float size) {
     const auto number = [&] { return size * (2.0f * random.next() - 1.0f); };
@@ -36,16 +36,8 @@ double of(float v) {
 
 /// How far a point is from the surface of the unit shape, in its space: negative inside.
 double height(ShapeKind kind, const Vec3d& p) {
-    switch (kind) {
-        case ShapeKind::Sphere:
-            return p.length() - 1.0;
-        case ShapeKind::Disk:
-            return std::max(std::abs(p.z), std::hypot(p.x, p.y) - 1.0);
-        case ShapeKind::Rectangle:
-            return std::max({std::abs(p.z), std::abs(p.x) - 1.0, std::abs(p.y) - 1.0});
-        case ShapeKind::Cylinder:
-            break;
-    }
+    if (kind == ShapeKind::Sphere) return p.length() - 1.0;
+    if (kind == ShapeKind::Disk) return std::max(std::abs(p.z), std::hypot(p.x, p.y) - 1.0);
     return std::max(std::hypot(p.x, p.z) - 1.0, std::abs(p.y) - 1.0);
 }
 

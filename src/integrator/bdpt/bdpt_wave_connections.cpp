@@ -42,15 +42,17 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
     std::array<const MeshLight*, kBlockLanes> meshes;
     std::array<Vec3f, kBlockLanes> points;
     std::array<Vec2f, kBlockLanes> u_triangle;
+    std::array<Vec2f, kBlockLanes> u_direction;
     for (std::size_t i = 0; i < lit_.size(); ++i) {
         const bool is_wide = eye_.vertices().matte_end(to_light_[lit_[i]]).exists();
         meshes[i] = is_wide ? world.lights().even_mesh(choices_[i].light) : nullptr;
         points[i] = receivers_[i].position;
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
         u_triangle[i] = triangle;
+        u_direction[i] = direction;
     }
     std::array<MeshLight::TriangleChoice, kBlockLanes> triangles;
-    MeshLight::choose_triangles(std::span(meshes).first(lit_.size()), points, u_triangle, triangles);
+    MeshLight::choose_triangles(std::span(meshes).first(lit_.size()), points, u_triangle, u_direction, triangles);
     to_lights_.clear();
     wide_to_lights_.clear();
     to_light_lanes_.front.clear();
@@ -69,7 +71,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
         to_light_lanes_.eye.set(lane, eye_.vertices().matte_end(vertex));
         to_light_lanes_.front.set(lane, *mesh, on_light);
-        to_light_lanes_.u.set(lane, direction);
+        to_light_lanes_.u.set(lane, on_light.u);
         to_light_lanes_.radiance.set(lane, mesh->radiance());
         to_light_lanes_.probability.set(lane, choice.probability);
         to_light_lanes_.choice_ratio.set(

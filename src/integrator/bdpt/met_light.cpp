@@ -53,7 +53,7 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
                                 .cos_light = cos_light},
                                arrived);
     else if (state.is_direct && light != kNone)
-        sums = sums_at_seen_emitter(parts_.job.mis, light, arrived);
+        sums = sums_at_seen_emitter(parts_.job.mis, light, point.position, arrived);
     add(state, emitted, sums, parts_.eye.vertices().words().surface_source(point));
 }
 

@@ -111,22 +111,23 @@ void PathLight::choose_lights(const PathContext& context, const LaneList& paths,
 void PathLight::sample_meshes(const LaneList& paths, const LightChoices& chosen) {
     const std::size_t count = paths.size();
     std::array<Vec3f, kBlockLanes> points;
-    std::array<Vec2f, kBlockLanes> u;
+    std::array<Vec2f, kBlockLanes> u_triangle;
+    std::array<Vec2f, kBlockLanes> u_direction;
     for (std::size_t place = 0; place < count; ++place) {
         points[place] = block_.lanes.position[paths[place]];
-        u[place] = block_.light_triangle[paths[place]];
+        u_triangle[place] = block_.light_triangle[paths[place]];
+        u_direction[place] = block_.light_direction[paths[place]];
     }
     std::array<MeshLight::TriangleChoice, kBlockLanes> triangles;
-    MeshLight::choose_triangles(std::span(chosen.meshes).first(count), points, u, triangles);
+    MeshLight::choose_triangles(std::span(chosen.meshes).first(count), points, u_triangle, u_direction, triangles);
     for (const std::size_t place : chosen.by_mesh) {
         const std::size_t k = paths[place];
         const MeshLight& mesh = *chosen.meshes[place];
         block_.lanes.front.set(k, mesh, triangles[place]);
+        block_.lanes.u_light.set(k, triangles[place].u);
         block_.lanes.expected_samples.set(k, chosen.choices[place].probability);
         block_.lanes.light_radiance.set(k, mesh.radiance());
     }
-    for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
-        block_.lanes.u_light.store(l, block_.light_direction.load(l));
     block_.lanes.sample_mesh_lights(block_.count);
 }
 

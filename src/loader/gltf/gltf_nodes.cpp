@@ -431,7 +431,6 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
         nodes.move_origin(origin);
         place_all();
     }
-    if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");
 }
 
 }  // namespace etendue

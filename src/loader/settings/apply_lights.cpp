@@ -86,16 +86,13 @@ void apply_strength(const LightOverride& change, Handle<IesProfileDesc> profile,
     light.intensity *= change.scale;
 }
 
-LampShape shape_of(LampKind kind) {
-    return kind == LampKind::Rectangle ? LampShape::Rectangle
-           : kind == LampKind::Disk    ? LampShape::Disk
-                                       : LampShape::Sphere;
-}
-
-Mat4f scaled(const Vec3f& size, const Mat4f& to_world) {
-    Mat4f scaling;
-    scaling.setScale(size);
-    return scaling * to_world;
+/// Returns the surface of a lamp that has one of its own.
+ShapeDesc shape_of(const LightOverride& lamp) {
+    const Vec3f radius(lamp.radius.value_or(0.5f));
+    if (lamp.kind == LampKind::Sphere) return {ShapeKind::Sphere, radius};
+    const Vec3f half(0.5f * lamp.width.value_or(1.0f), 0.5f * lamp.height.value_or(1.0f), 1.0f);
+    if (lamp.kind == LampKind::Rectangle) return {ShapeKind::Rectangle, half};
+    return {ShapeKind::Disk, lamp.width ? half : radius};
 }
 
 /// Applies what the document says of lamps.
@@ -291,16 +288,16 @@ class LightChanges {
     /// Adds a sphere in place of a point, or a disk in place of a spot, with the intensity that `light` has.
     void add_soft(const LightDesc& light, const Softening& softening, std::uint32_t node) {
         const bool is_spot = light.type == LightType::Spot;
-        SurfaceLamp lamp{.shape = is_spot ? LampShape::Disk : LampShape::Sphere,
+        SurfaceLamp lamp{.shape = {is_spot ? ShapeKind::Disk : ShapeKind::Sphere, Vec3f(softening.radius)},
                          .name = light.node.empty() ? light.name : light.node,
                          .data_name = light.name,
                          .node = node,
-                         .to_world = scaled(Vec3f(softening.radius), light.to_world),
+                         .to_world = light.to_world,
                          .color = light.color,
                          .visible_to_camera = softening.visible_to_camera,
                          .stops_light = softening.stops_light,
                          .location = softening.location};
-        const auto area = static_cast<float>(lamp_area(lamp.shape, lamp.to_world));
+        const auto area = static_cast<float>(lamp.shape.area(lamp.to_world));
         const float intensity = light.intensity / lamp_units(scene_);
         // Of a convex surface a quarter is seen from each side, in the mean over all.
         lamp.radiance = is_spot ? intensity / area : 4.0f * intensity / area;
@@ -352,21 +349,16 @@ class LightChanges {
 
     void add_surface(const LampToAdd& added) {
         const LightOverride& change = *added.lamp;
-        const LampShape shape = shape_of(*change.kind);
-        Vec3f size(change.radius.value_or(0.5f));
-        if (shape == LampShape::Rectangle) size = {change.width.value_or(1.0f), change.height.value_or(1.0f), 1.0f};
-        // An ellipse has half its width and height on each side of its middle.
-        if (shape == LampShape::Disk && change.width) size = {0.5f * *change.width, 0.5f * *change.height, 1.0f};
-        SurfaceLamp lamp{.shape = shape,
+        SurfaceLamp lamp{.shape = shape_of(change),
                          .name = *added.name,
                          .data_name = *added.name,
                          .node = added.node,
-                         .to_world = scaled(size, added.to_world),
+                         .to_world = added.to_world,
                          .color = change.color.value_or(Rgb(1.0f)),
                          .visible_to_camera = change.visible_to_camera.value_or(true),
                          .stops_light = change.stops_light.value_or(true),
                          .location = change.location};
-        const double area = lamp_area(shape, lamp.to_world);
+        const double area = lamp.shape.area(lamp.to_world);
         lamp.radiance =
             change.scale * (change.radiance ? *change.radiance : *change.power / (kPi * static_cast<float>(area)));
         if (change.spread < kPi) {

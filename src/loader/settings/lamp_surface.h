@@ -1,4 +1,4 @@
-// Lamps with a surface: rectangles, disks and spheres that shine, as meshes with a black or a clear material that
+// Lamps with a surface: rectangles, disks and spheres that shine, as exact shapes with a black or a clear material that
 // emits.
 #pragma once
 
@@ -9,15 +9,13 @@
 
 namespace etendue {
 
-enum class LampShape { Rectangle, Disk, Sphere };
-
 /// A lamp that shines from a surface, along its local -Z if that is flat.
 struct SurfaceLamp {
-    LampShape shape = LampShape::Rectangle;
+    ShapeDesc shape;
     std::string name;                      ///< of its instance
     std::string data_name;                 ///< of its mesh and its material
     std::uint32_t node = NodeDesc::kNone;  ///< index into SceneDesc::nodes
-    Mat4f to_world{};       ///< of a rectangle of a metre by a metre, or of a disk or sphere of radius 1 m
+    Mat4f to_world{};
     Rgb color{1.0f};        ///< linear Rec.709
     float radiance = 0.0f;  ///< W/(m² sr), of a spot's beam that along the normal
     BeamDesc beam{};
@@ -26,12 +24,7 @@ struct SurfaceLamp {
     SourceLocation location;
 };
 
-/// Returns the area, m², of the surface of a lamp of this shape once `to_world` has placed it.
-///
-/// Disks are polygons of 64 corners, spheres polyhedra of 1280 facets, both with the area of what they stand for.
-[[nodiscard]] double lamp_area(LampShape shape, const Mat4f& to_world);
-
-/// Adds the mesh, the material and the instance of `lamp`.
+/// Adds the shape, the material and the instance of `lamp`.
 void add_surface_lamp(const SurfaceLamp& lamp, SceneDesc& scene);
 
 }  // namespace etendue

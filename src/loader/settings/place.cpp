@@ -34,8 +34,11 @@ void check_view(Place& place, JsonObject& object) {
 
 void read_place(JsonObject& object, Place& place) {
     object.text("node", place.node);
-    if (Vec3d position; object.vector("position", position)) place.position = position;
-    if (Vec3d look_at; object.vector("look_at", look_at)) place.look_at = look_at;
+    // Where a position is wrong, that is the one thing to say: nobody is to look for a node in its place.
+    Vec3d position(0.0);
+    const bool has_position = object.vector("position", position);
+    if (object.has("position")) place.position = position;
+    if (Vec3d look_at; object.vector("look_at", look_at) && (has_position || !place.position)) place.look_at = look_at;
     object.vector("up", place.up);
     if (object.quaternion("rotation", place.rotation) && !rotation_matrix(place.rotation))
         object.problems().error(object.at("rotation"), "must not be zero");

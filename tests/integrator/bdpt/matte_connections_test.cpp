@@ -142,7 +142,7 @@ TEST_P(MatteConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
                                 false, true, Vec3f(1e-6f));
             numbers[l] = random_.next_2d();
             lanes.eye.set(l, eyes[l].end);
-            lanes.front.set(l, lights[l], {.triangle = 0, .gain = 1.0f});
+            lanes.front.set(l, lights[l], {.triangle = 0, .gain = 1.0f, .u = numbers[l]});
             lanes.u.set(l, numbers[l]);
             lanes.radiance.set(l, radiance);
             lanes.probability.set(l, 0.25f);

@@ -155,7 +155,7 @@ class GivenPath {
                     world.environment().emission_pdf_solid_angle(end.light, -end.direction);
         } else {
             emission.sample.pdf_direction_solid_angle = pdf;
-            if (can_be_hit()) emission.sample.pdf_position_area = world.emitters().pdf_area(end.light);
+            if (can_be_hit()) emission.sample.pdf_position_area = world.emitters().pdf_area(end.light, end.position);
         }
         return emission;
     }
@@ -179,7 +179,8 @@ class GivenPath {
         const float squared = length_squared(end.position - position);
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
-            chosen.sample.pdf_solid_angle = chosen.expected_samples * world.emitters().pdf_area(end.light) *
+            chosen.sample.pdf_solid_angle = chosen.expected_samples *
+                                            world.emitters().pdf_area(end.light, end.position) *
                                             world.lights().gain(end.light, end.triangle, end.position, position) *
                                             squared / std::abs(end.cos_light);
         return chosen;

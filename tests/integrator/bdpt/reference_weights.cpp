@@ -50,7 +50,7 @@ class Path {
         if (!at_infinity_) {
             const float gain =
                 s == 1 ? world.lights().gain(end_.light, end_.triangle, end_.position, inner_.front()->position) : 1.0f;
-            return chosen * static_cast<double>(world.emitters().pdf_area(end_.light) * gain);
+            return chosen * static_cast<double>(world.emitters().pdf_area(end_.light, end_.position) * gain);
         }
         return chosen *
                static_cast<double>(s == 1 ? world.environment().pdf_solid_angle(end_.light, -end_.direction)

@@ -176,7 +176,7 @@ TEST(Mesh, NothingButDegenerateTrianglesIsSkipped) {
     const LoadedScene loaded = builder.load();
     EXPECT_FALSE(loaded.problems.has_errors());
     EXPECT_TRUE(loaded.scene.instances.empty());
-    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "shows no triangles"));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "shows no surfaces"));
 }
 
 TEST(Mesh, LeftoverIndicesAreIgnored) {

@@ -1,6 +1,5 @@
 // Lamps that render.json adds and changes.
 #include "loader/gltf/gltf_builder.h"
-#include "loader/settings/lamp_surface.h"
 
 #include <cmath>
 #include <numbers>
@@ -61,14 +60,8 @@ struct Added {
           area(0.0),
           axis(0.0f) {
         const PrimitiveDesc& surface = scene.meshes.at(static_cast<std::size_t>(instance.mesh.index)).primitives.at(0);
-        for (const auto& t : surface.triangles) {
-            const Vec3f p0 = transform_point(instance.to_world, surface.positions[t[0]]);
-            const Vec3f across = cross(transform_point(instance.to_world, surface.positions[t[1]]) - p0,
-                                       transform_point(instance.to_world, surface.positions[t[2]]) - p0);
-            area += 0.5 * static_cast<double>(length(across));
-            axis += across;
-        }
-        if (length(axis) > 1e-3f) axis = normalize(axis);
+        area = surface.shape.value().area(instance.to_world);
+        axis = normalize(transform_vector(instance.to_world, {0.0f, 0.0f, -1.0f}));
     }
     /// Returns the watts that the lamp emits if it is as bright from everywhere.
     [[nodiscard]] double power() const { return kPiD * area * radiance; }
@@ -96,24 +89,37 @@ TEST(Lamps, SurfacesHaveThePowerThatIsSaid) {
     }
 }
 
-TEST(Lamps, FacetsAreNearWhatTheyStandFor) {
-    EXPECT_NEAR(lamp_area(LampShape::Sphere, Mat4f()), 4.0 * kPiD, 1e-9);
-    EXPECT_NEAR(lamp_area(LampShape::Disk, Mat4f()), kPiD, 1e-9);
-    const auto farthest = [](const char* lamp) {
-        const LoadedScene loaded = load_lamps(std::string(R"({"a": )") + lamp + "}");
+TEST(Lamps, AreExactShapes) {
+    const auto shape_of = [](const std::string& lamp) {
+        const LoadedScene loaded = load_lamps(R"({"a": {"power": 1, "position": [0, 0, 0], )" + lamp + "}}");
         EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
-        float least = 1e9f;
-        float most = 0.0f;
-        for (const Vec3f& p : loaded.scene.meshes.back().primitives.at(0).positions) {
-            if (length(p) == 0.0f) continue;
-            least = std::min(least, length(p));
-            most = std::max(most, length(p));
-        }
-        EXPECT_NEAR(least, most, 1e-6f);
-        return most;
+        return loaded.scene.meshes.back().primitives.at(0).shape.value();
     };
-    EXPECT_NEAR(farthest(R"({"type": "sphere", "position": [0, 0, 0], "power": 1})"), 1.0024f, 1e-4f);
-    EXPECT_NEAR(farthest(R"({"type": "disk", "position": [0, 0, 0], "power": 1})"), 1.0008f, 1e-4f);
+    EXPECT_EQ(shape_of(R"("type": "sphere")").kind, ShapeKind::Sphere);
+    EXPECT_EQ(shape_of(R"("type": "sphere", "radius": 2)").half_size, Vec3f(2.0f));
+    EXPECT_EQ(shape_of(R"("type": "disk")").half_size, Vec3f(0.5f));
+    EXPECT_EQ(shape_of(R"("type": "disk", "width": 4, "height": 2)").half_size, Vec3f(2.0f, 1.0f, 1.0f));
+    EXPECT_EQ(shape_of(R"("type": "rectangle", "width": 4, "height": 2)").kind, ShapeKind::Rectangle);
+    EXPECT_EQ(shape_of(R"("type": "point", "radius": 2)").kind, ShapeKind::Sphere);
+    EXPECT_EQ(shape_of(R"("type": "spot", "radius": 2)").kind, ShapeKind::Disk);
+}
+
+// The power stays what it is where the node makes an ellipsoid of a sphere.
+TEST(Lamps, EllipsoidsHaveThePowerThatIsSaid) {
+    const ShapeDesc ball{ShapeKind::Sphere, Vec3f(1.0f)};
+    const auto scaled = [](float x, float y, float z) {
+        Mat4f m;
+        m.setScale(Vec3f(x, y, z));
+        return m;
+    };
+    // Closed forms of spheroids with semi-axes 1 and 2, e² = 1 - 1 / 4.
+    EXPECT_NEAR(ball.area(Mat4f()), 4.0 * kPiD, 1e-12);
+    const double e = std::sqrt(0.75);
+    const double oblate = 2.0 * kPiD * 4.0 * (1.0 + 0.25 / e * std::atanh(e));
+    const double prolate = 2.0 * kPiD * (1.0 + 2.0 / e * std::asin(e));
+    EXPECT_NEAR(ball.area(scaled(2.0f, 1.0f, 2.0f)) / oblate, 1.0, 1e-12);
+    EXPECT_NEAR(ball.area(scaled(1.0f, 2.0f, 1.0f)) / prolate, 1.0, 1e-12);
+    EXPECT_NEAR(ball.area(scaled(1.0f, 1.0f, 1e-6f)), 2.0 * kPiD, 1e-6) << "both sides of a disk";
 }
 
 TEST(Lamps, StandWhereThePositionSaysAndLookWhereTheyAreTold) {

@@ -55,6 +55,21 @@ TEST(Shapes, TakeThePlaceOfMeshes) {
     EXPECT_NE(dump(scene).find("sphere with half its size (2 2 2), material 0"), std::string::npos);
 }
 
+TEST(Shapes, AreSurfacesOfAScene) {
+    for (const bool has_shape : {false, true}) {
+        GltfBuilder builder;
+        builder.json["materials"] = {{{"name", "paper"}}};
+        builder.json["nodes"] = {{{"name", "Empty"}}};
+        builder.json["scenes"] = {{{"nodes", {0}}}};
+        const TempDir dir;
+        builder.write(dir);
+        if (has_shape) dir.write("render.json", R"({"shapes": {"Empty": {"type": "sphere", "material": "paper"}}})");
+        const LoadedScene loaded = inspect_scene(dir.path());
+        EXPECT_EQ(has_problem(loaded.problems, Severity::Warning, "shows no surfaces"), !has_shape)
+            << listing(loaded.problems);
+    }
+}
+
 TEST(Shapes, ManyStandAtAnEmptyNodeAndOneInPlaceOfAMesh) {
     const std::string both = R"("type": "sphere", "material": "glass"})";
     const LoadedScene loaded =
@@ -120,6 +135,17 @@ TEST(Shapes, AreValidated) {
     ball.shape->half_size.x = 0.5f;
     ball.triangles.push_back({0, 1, 2});
     EXPECT_TRUE(validate(loaded.scene).has_errors());
+}
+
+// Nobody is to look for a node in place of a position that is no position.
+TEST(Shapes, HaveOneErrorForAWrongPosition) {
+    for (const std::string position :
+         {R"("here")", "[1, 2]", R"([1, 2, 3], "look_at": 5)", R"("here", "look_at": [0, 0, 0])"}) {
+        const std::string errors =
+            errors_of(R"({"a": {"type": "disk", "material": "glass", "position": )" + position + "}}");
+        EXPECT_EQ(std::ranges::count(errors, '\n'), 1) << errors;
+        EXPECT_EQ(errors.find("where the shape is"), std::string::npos) << errors;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,88 @@
+#include "light/light_rectangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace etendue {
+
+namespace {
+
+std::array<Vec3d, 3> corners_of(const LightTriangle& t) {
+    const Vec3d p0(t.p0);
+    return {p0, p0 + Vec3d(t.edge1), p0 + Vec3d(t.edge2)};
+}
+
+/// Bounds the solid angle, steradians, up to which a rectangle is sampled by area.
+constexpr double kLeastSolidAngle = 0.2;
+
+Vec3d front_of(const LightTriangle& t) {
+    return Vec3d(t.edge1).cross(Vec3d(t.edge2));
+}
+
+}  // namespace
+
+std::optional<LightRectangle> LightRectangle::find(std::span<const LightTriangle> triangles) {
+    constexpr double kTolerance = 1e-5;  // of sides and angles
+    if (triangles.size() != 2) return std::nullopt;
+    if (!(front_of(triangles[0]).dot(front_of(triangles[1])) > 0.0)) return std::nullopt;
+    const std::array<Vec3d, 3> p = corners_of(triangles[0]);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3d x = p[(c + 1) % 3] - p[c];
+        const Vec3d y = p[(c + 2) % 3] - p[c];
+        if (!(std::abs(x.dot(y)) <= kTolerance * x.length() * y.length())) continue;
+        // Each vertex has to be a corner, the other triangle's those that face this one's.
+        const double nearest = kTolerance * std::min(x.length(), y.length());
+        LightRectangle found;
+        std::array<std::array<Vec2f, 3>, 2> vertices;
+        int corners = 0;
+        for (std::size_t t = 0; t < 2; ++t) {
+            const std::array<Vec3d, 3> q = corners_of(triangles[t]);
+            for (std::size_t v = 0; v < 3; ++v)
+                for (const auto& [i, j] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
+                    if (!((q[v] - p[c] - x * i - y * j).length() <= nearest)) continue;
+                    vertices[t][v] = {static_cast<float>(i), static_cast<float>(j)};
+                    corners += (t == 1 && i + j == 0) ? 0 : 1;
+                }
+        }
+        if (corners != 6) return std::nullopt;
+        for (std::size_t t = 0; t < 2; ++t) {
+            const Vec2f a = vertices[t][1] - vertices[t][0];
+            const Vec2f b = vertices[t][2] - vertices[t][0];
+            const float determinant = a.x * b.y - a.y * b.x;  // 1 or -1, unless two vertices are in one corner
+            if (determinant == 0.0f) return std::nullopt;
+            found.halves_[t] = {vertices[t][0], Vec2f(b.y, -b.x) / determinant, Vec2f(-a.y, a.x) / determinant};
+        }
+        found.corner_ = Vec3f(p[c]);
+        found.axis_x_ = Vec3f(x.normalized());
+        found.axis_y_ = Vec3f(y.normalized());
+        found.normal_ = Vec3f(x.cross(y).normalized());
+        found.size_ = {static_cast<float>(x.length()), static_cast<float>(y.length())};
+        found.center_ = Vec3f(p[c] + (x + y) * 0.5);
+        // It is seen by no more than its area over the square of the distance from its nearest point.
+        const double area = x.cross(y).length();
+        const double near = 0.5 * (x + y).length() + std::sqrt(area / kLeastSolidAngle);
+        found.near_squared_ = static_cast<float>(near * near);
+        return found;
+    }
+    return std::nullopt;
+}
+
+std::optional<SphericalRectangle> LightRectangle::seen_from(const Vec3f& point) const {
+    if (!(length_squared(point - center_) < near_squared_)) return std::nullopt;
+    const Vec3f to_corner = corner_ - point;
+    const SphericalRectangle seen({dot(to_corner, axis_x_), dot(to_corner, axis_y_), dot(to_corner, normal_)}, size_);
+    if (!(seen.solid_angle() > kLeastSolidAngle)) return std::nullopt;
+    return seen;
+}
+
+RectanglePlace LightRectangle::place(Vec2f along_sides) const {
+    const std::uint32_t triangle = along_sides.x + along_sides.y <= 1.0f ? 0 : 1;
+    const Half& half = halves_[triangle];
+    const Vec2f away = along_sides - half.first;
+    const auto bounded = [](float b) { return std::clamp(b, 0.0f, 1.0f); };
+    return {triangle, {bounded(away.dot(half.to_second)), bounded(away.dot(half.to_third))}};
+}
+
+}  // namespace etendue
