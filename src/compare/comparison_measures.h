@@ -32,6 +32,12 @@ struct ErrorMaps {
 /// A note if the times of variants, which were to be equal, differ by more than a tenth; else empty.
 [[nodiscard]] std::string unequal_times(const ComparisonReport& report);
 
+/// Makes the squared errors unknown of whose mean over the seeds the reference's noise, taken off, has left nothing.
+void drop_drowned(ErrorsByMetric& errors);
+
+/// Returns a note on the variants of whose squared errors the reference's noise has left nothing; else empty.
+[[nodiscard]] std::string drowned_errors(const ComparisonReport& report);
+
 /// A part of the image to look at, in the full image's coordinates.
 struct NamedRegion {
     std::string name;

@@ -14,14 +14,20 @@ namespace etendue {
 
 namespace {
 
-/// Adds `weight` times the mean of all images but the one of round `left_out`.
-void add_mean(ImageF& sum, std::span<const ImageF> images, std::size_t left_out, double weight) {
-    const double scale = weight / static_cast<double>(images.size() - 1);
-    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
-        double value = 0.0;
-        for (std::size_t round = 0; round < images.size(); ++round)
-            if (round != left_out) value += static_cast<double>(images[round].pixels[i]);
-        sum.pixels[i] += static_cast<float>(scale * value);
+/// Adds `weight` times the mean of all images, three or more, but the one of round `left_out`, and its variance.
+void add_mean(ImageEstimate& sum, std::span<const ImageF> images, std::size_t left_out, double weight) {
+    const auto count = static_cast<double>(images.size() - 1);
+    for (std::size_t i = 0; i < sum.mean.pixels.size(); ++i) {
+        const auto sum_of = [&](const auto& term) {
+            double all = 0.0;
+            for (std::size_t round = 0; round < images.size(); ++round)
+                if (round != left_out) all += term(static_cast<double>(images[round].pixels[i]));
+            return all;
+        };
+        const double mean = sum_of([](double value) { return value; }) / count;
+        const double squares = sum_of([mean](double value) { return (value - mean) * (value - mean); });
+        sum.mean.pixels[i] += static_cast<float>(weight * mean);
+        sum.variance.pixels[i] += static_cast<float>(weight * weight * squares / (count * (count - 1.0)));
     }
 }
 
@@ -107,25 +113,27 @@ std::string made_alone_by(const std::string& integrator, const std::string& meas
 }  // namespace
 
 Reference::Reference(ImageF image, ReferenceReport report) : report_(std::move(report)) {
-    images_.push_back(std::move(image));
+    images_.push_back({std::move(image), {}});
 }
 
-Reference::Reference(std::vector<ImageF> of_rounds, ImageF variance, ReferenceReport report)
+Reference::Reference(ImageEstimate estimate, ReferenceReport report)
+    : variance_(estimate.variance), report_(std::move(report)) {
+    images_.push_back(std::move(estimate));
+}
+
+Reference::Reference(std::vector<ImageEstimate> of_rounds, ImageF variance, ReferenceReport report)
     : images_(std::move(of_rounds)), variance_(std::move(variance)), report_(std::move(report)) {}
 
 ImageF Reference::whole() const {
     // Each render is in the images of all rounds but its own.
-    ImageF mean(images_.front().width, images_.front().height, images_.front().channels);
+    const ImageF& like = images_.front().mean;
+    ImageF mean(like.width, like.height, like.channels);
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
         double sum = 0.0;
-        for (const ImageF& image : images_) sum += static_cast<double>(image.pixels[i]);
+        for (const ImageEstimate& image : images_) sum += static_cast<double>(image.mean.pixels[i]);
         mean.pixels[i] = static_cast<float>(sum / static_cast<double>(images_.size()));
     }
     return mean;
-}
-
-const ImageF& Reference::of_round(std::size_t round) const {
-    return images_.size() == 1 ? images_.front() : images_[round];
 }
 
 std::vector<FinishedImages> finished_images(std::span<const VariantRenders> renders, const ImageStore& store) {
@@ -202,8 +210,9 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
     const std::vector<double> weights = pooling_weights(variances);
     ReferenceReport report{.kind = "pooled", .noise_rel_mse = 0.0};
     const ImageF& like = images.front().of_seeds.front();
-    std::vector<ImageF> of_rounds(rounds, ImageF(like.width, like.height, like.channels));
-    ImageF variance(like.width, like.height, like.channels);
+    const ImageF black(like.width, like.height, like.channels);
+    std::vector<ImageEstimate> of_rounds(rounds, {black, black});
+    ImageF variance = black;
     for (std::size_t i = 0; i < members.size(); ++i) {
         const FinishedImages& member = images[members[i]];
         report.weights[variants[members[i]].name] = weights[i];

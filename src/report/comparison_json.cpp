@@ -13,7 +13,7 @@ namespace {
 /// Writes numbers that are not finite as null.
 using Json = nlohmann::ordered_json;
 
-constexpr int kComparisonFormat = 3;
+constexpr int kComparisonFormat = 4;
 constexpr std::array kChannels{"R", "G", "B"};
 
 Json range(const SeedValues& values) {

@@ -163,7 +163,7 @@ struct ReferenceReport {
     std::string kind{};                       ///< "file", "integrator", "pooled", or "none"
     std::string text{};                       ///< a sentence
     std::map<std::string, double> weights{};  ///< weights of variants in a pooled reference
-    double noise_rel_mse = kUnknown;          ///< part of the measured relMSE that is the reference's own noise
+    double noise_rel_mse = kUnknown;          ///< relMSE of the reference's own noise, which squared errors are without
     SeedRange seeds{};                        ///< seeds that a pooled reference was rendered with; else none
 };
 

@@ -1,5 +1,6 @@
 #include "compare/comparison_measures.h"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -37,6 +38,24 @@ TEST(FindRegions, LeaveOutWhatIsNoNumber) {
     ASSERT_EQ(regions.size(), 3u);
     EXPECT_EQ(regions[0].pixels, (PixelRect{40, 40, 48, 48}));
     EXPECT_EQ(regions[1].pixels, (PixelRect{16, 40, 24, 48}));
+}
+
+TEST(DropDrowned, LeavesWhatIsAboveTheNoise) {
+    ErrorsByMetric errors{{"relmse", {{0.3, -0.1}}},
+                          {"relmse-trimmed", {{0.1, -0.2}}},
+                          {"mse", {{0.0, 0.0}}},
+                          {"mae", {{0.0, 0.0}}}};
+    drop_drowned(errors);
+    EXPECT_DOUBLE_EQ(errors.at("relmse").mean(), 0.1) << "one seed's may be negative by chance";
+    EXPECT_TRUE(std::isnan(errors.at("relmse-trimmed").mean()));
+    EXPECT_TRUE(std::isnan(errors.at("mse").mean()));
+    EXPECT_EQ(errors.at("mae").mean(), 0.0) << "it has no noise taken off";
+    ComparisonReport report;
+    report.variants = {{.name = "path", .errors = errors}, {.name = "bdpt", .errors = {{"relmse", {{1.0}}}}}};
+    EXPECT_EQ(drowned_errors(report), "") << "without a reference of known noise";
+    report.reference.noise_rel_mse = 0.5;
+    EXPECT_NE(drowned_errors(report).find("a relMSE of 0.5, hides errors of 'path', which"), std::string::npos)
+        << drowned_errors(report);
 }
 
 TEST(UnequalTimes, AreThoseMoreThanATenthApart) {
