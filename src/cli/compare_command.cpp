@@ -164,8 +164,8 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
 
 /// A reference that is asked for: what can be known of it before anything is rendered.
 struct RequestedReference {
-    std::optional<ImageF> image{};         ///< of the file
-    std::optional<PooledOrigin> origin{};  ///< of a file that another comparison has pooled
+    std::optional<ImageF> image{};            ///< of the file
+    std::optional<ReferenceOrigin> origin{};  ///< of a file that says with which seeds it was rendered
     std::optional<Variant> variant{};      ///< that renders it
     double seconds = 0.0;                  ///< that it renders for
     std::vector<std::string> notes{};
@@ -181,7 +181,14 @@ RequestedReference requested_reference(const CompareArguments& arguments, const 
                                                   sampling.window, first.settings.color.working_space, colors);
         requested.image = std::move(file.pixels);
         requested.notes = std::move(file.warnings);
-        requested.origin = read_pooled_origin(arguments.reference);
+        requested.origin = read_reference_origin(arguments.reference, sampling.window);
+        if (requested.origin && requested.origin->variance && file.is_converted) {
+            requested.origin->variance.reset();
+            requested.notes.push_back(
+                fmt::format("the noise of '{}' is known in its own colour space alone, and is a part of all errors: "
+                            "--working-space has that one",
+                            arguments.reference));
+        }
     } else if (!arguments.reference_integrator.empty()) {
         requested.variant = with_integrator(first, arguments.reference_integrator);
         requested.seconds = arguments.reference_seconds.value_or(10.0 * arguments.seconds.value_or(kDefaultSeconds));
@@ -195,12 +202,14 @@ std::optional<Reference> find_reference(const CompareArguments& arguments, Reque
                                         std::uint32_t seed, const std::vector<Variant>& variants,
                                         const std::vector<FinishedImages>& images, const ThreadPool& threads,
                                         ComparisonReport& report) {
-    if (requested.image)
-        return Reference(std::move(*requested.image),
-                         {.kind = "file",
-                          .text = fmt::format("The file {}{}.", arguments.reference,
-                                              requested.origin ? ", which another comparison has pooled" : ""),
-                          .noise_rel_mse = requested.origin ? requested.origin->noise_rel_mse : kUnknown});
+    if (requested.image) {
+        const bool is_of_comparison = requested.origin && requested.origin->has_other_renders;
+        ReferenceReport file{.kind = "file",
+                             .text = fmt::format("The file {}{}.", arguments.reference,
+                                                 is_of_comparison ? ", which another comparison has made" : "")};
+        if (!requested.origin || !requested.origin->variance) return Reference(std::move(*requested.image), file);
+        return Reference({std::move(*requested.image), std::move(*requested.origin->variance)}, std::move(file));
+    }
     if (!requested.variant) return pool_reference(variants, images, report.pairs, report.notes);
     auto image = render_reference(*requested.variant, requested.seconds, seed, threads, arguments.quiet);
     if (!image) {
@@ -264,7 +273,7 @@ void require_regions_within(const std::vector<NamedRegion>& regions, const Pixel
 }
 
 /// Returns the seed of the first render. Renders that have a part in their own reference would look better than they
-/// are: seeds go on after those of a reference that another comparison has pooled, unless --seed was given.
+/// are: seeds go on after those of the reference's file, unless --seed was given.
 std::uint32_t first_seed(const CompareArguments& arguments, const std::vector<Variant>& variants,
                          RequestedReference& requested) {
     const std::uint32_t first = variants.front().settings.seed;
@@ -278,8 +287,8 @@ std::uint32_t first_seed(const CompareArguments& arguments, const std::vector<Va
         std::ranges::any_of(arguments.common.given, [](const GivenOption& option) { return option.name == "--seed"; });
     const std::uint32_t after = taken.first + taken.count;
     requested.notes.push_back(
-        is_given ? fmt::format("the reference was pooled from renders with some of the same seeds, so that errors are "
-                               "too small; --seed {} has others",
+        is_given ? fmt::format("the reference was rendered with some of the same seeds, so that errors are not those "
+                               "of independent images; --seed {} has others",
                                after)
                  : fmt::format("seeds begin with {}, after those of the reference", after));
     return is_given ? first : after;

@@ -59,6 +59,13 @@ OutputFrame frame_of(const ComparisonReport& report) {
     return frame;
 }
 
+/// Returns what the header says under `name`; empty if that is no text or not there.
+std::string text_of(const ChannelImage& image, const char* name) {
+    const ImageAttribute* const found = image.find(name);
+    const auto* const text = found != nullptr ? std::get_if<std::string>(&found->value) : nullptr;
+    return text != nullptr ? *text : "";
+}
+
 /// `name` as a part of a file's name: letters, digits and what no shell takes apart.
 std::string plain_name(const std::string& name) {
     std::string result;
@@ -106,35 +113,38 @@ void write_reference(const fs::path& path, const Reference& reference, const Com
     ExrDriver(path, colors, PixelDepth::Float).write(frame);
 }
 
-std::optional<PooledOrigin> read_pooled_origin(const fs::path& path) {
+std::optional<ReferenceOrigin> read_reference_origin(const fs::path& path, const PixelRect& window) {
     ChannelImage image;
     try {
         image = read_channels(path);
     } catch (const IoError&) {
         return std::nullopt;
     }
-    const ImageAttribute* const seeds = image.find(kSeedsAttribute);
-    const auto* const text = seeds != nullptr ? std::get_if<std::string>(&seeds->value) : nullptr;
-    if (text == nullptr) return std::nullopt;
-    PooledOrigin origin;
-    std::istringstream(*text) >> origin.seeds.first >> origin.seeds.count;
-    ImageEstimate estimate{ImageF(image.pixels.width, image.pixels.height, 3),
-                           ImageF(image.pixels.width, image.pixels.height, 3)};
+    const std::string seeds = text_of(image, kSeedsAttribute);
+    const std::string seed = text_of(image, "etendue:seed");
+    if (seeds.empty() && seed.empty()) return std::nullopt;
+    ReferenceOrigin origin{.seeds = {.first = 0, .count = 1}, .has_other_renders = !seeds.empty()};
+    std::istringstream text(seeds.empty() ? seed : seeds);
+    text >> origin.seeds.first;
+    if (origin.has_other_renders) text >> origin.seeds.count;
+    if (!text) return std::nullopt;
+    const PixelRect& data = image.data_window;
+    const PixelRect& full = image.display_window;
+    const auto channels = static_cast<std::size_t>(image.pixels.channels);
+    ImageF variance(window.width(), window.height(), 3);
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::string channel(1, "RGB"[c]);
-        const auto place = [&](const std::string& name) {
-            return static_cast<std::size_t>(std::ranges::find(image.channel_names, name) - image.channel_names.begin());
-        };
-        const std::size_t mean = place(channel), noise = place(fmt::format("{}.{}", kNoiseLayer, channel));
-        const auto channels = static_cast<std::size_t>(image.pixels.channels);
-        if (mean >= channels || noise >= channels) return std::nullopt;
-        for (std::size_t i = 0; i < estimate.mean.pixels.size() / 3; ++i) {
-            const float error = image.pixels.pixels[i * channels + noise];
-            estimate.mean.pixels[3 * i + c] = image.pixels.pixels[i * channels + mean];
-            estimate.variance.pixels[3 * i + c] = error * error;
-        }
+        const auto noise = static_cast<std::size_t>(
+            std::ranges::find(image.channel_names, fmt::format("{}.{}", kNoiseLayer, "RGB"[c])) -
+            image.channel_names.begin());
+        if (noise >= channels) return origin;
+        for (int y = 0; y < variance.height; ++y)
+            for (int x = 0; x < variance.width; ++x) {
+                const float error = image.pixels.pixel(x + window.x0 + full.x0 - data.x0,
+                                                       y + window.y0 + full.y0 - data.y0)[noise];
+                variance.pixel(x, y)[c] = error * error;
+            }
     }
-    origin.noise_rel_mse = relative_variance(estimate);
+    origin.variance = std::move(variance);
     return origin;
 }
 

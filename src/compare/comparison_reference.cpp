@@ -118,6 +118,7 @@ Reference::Reference(ImageF image, ReferenceReport report) : report_(std::move(r
 
 Reference::Reference(ImageEstimate estimate, ReferenceReport report)
     : variance_(estimate.variance), report_(std::move(report)) {
+    report_.noise_rel_mse = relative_variance(estimate);
     images_.push_back(std::move(estimate));
 }
 

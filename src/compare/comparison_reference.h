@@ -17,7 +17,8 @@ class Reference {
   public:
     /// Holds one image that has nothing to do with those that are measured, and whose noise is not known.
     Reference(ImageF image, ReferenceReport report);
-    /// Holds one image that has nothing to do with those that are measured, and the variance of each of its values.
+    /// Holds one image that has nothing to do with those that are measured, and the variance of each of its values, by
+    /// which the report's noise is set.
     Reference(ImageEstimate estimate, ReferenceReport report);
     /// Holds a pooled reference: for every round of renders an image that the round had no part in, with the variance
     /// of each of its values, and the variance of each value of their mean.

@@ -434,7 +434,10 @@ TEST_F(Compare, MeasuresAgainstAFileOrAnotherIntegrator) {
         0);
     ASSERT_EQ(compare({"--spp", "2", "--seeds", "1", "--reference", "box.exr", "--integrators", "path"}).exit_code, 0);
     EXPECT_EQ(report()["reference"]["kind"], "file");
+    EXPECT_TRUE(report()["reference"]["noise_relmse"].is_null());
     EXPECT_GT(report()["variants"][0]["errors"]["relmse"]["mean"], 0.0);
+    EXPECT_EQ(report()["variants"][0]["seeds"], json{1}) << "0 is the reference's";
+    EXPECT_NE(notes().find("seeds begin with 1, after those of the reference"), std::string::npos) << notes();
     ASSERT_EQ(compare({"--spp", "2", "--seeds", "1", "--reference-integrator", "bdpt", "--reference-seconds", "0.1",
                        "--strategies-depth", "0"})
                   .exit_code,
