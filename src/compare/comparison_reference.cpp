@@ -41,11 +41,24 @@ std::string weights_text(const std::map<std::string, double>& weights) {
 /// Places of variants.
 using Members = std::vector<std::size_t>;
 
-/// Variants that find all of the light they show, by which light that is; most of one kind first.
-std::vector<Members> groups_of_light(std::span<const Variant> variants) {
+std::string names_text(std::span<const Variant> variants, const Members& members) {
+    std::string text;
+    for (std::size_t i = 0; i < members.size(); ++i)
+        text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 < members.size() ? ", " : " and of ", variants[members[i]].name);
+    return text;
+}
+
+/// Variants that find all of the light they show, by which light that is; most of one kind first. Those whose images
+/// cannot be tested are `untested` and in no group.
+std::vector<Members> groups_of_light(std::span<const Variant> variants, std::span<const FinishedImages> images,
+                                     Members& untested) {
     std::vector<Members> groups;
     for (std::size_t v = 0; v < variants.size(); ++v) {
         if (!variants[v].cannot_find.empty()) continue;
+        if (images[v].of_seeds.size() > 1 && !images[v].block_size) {
+            untested.push_back(v);
+            continue;
+        }
         const auto group = std::ranges::find_if(groups, [&](const Members& members) {
             return different_light(variants[members.front()], variants[v]).empty();
         });
@@ -60,8 +73,13 @@ std::vector<Members> groups_of_light(std::span<const Variant> variants) {
 
 /// Why the first of `groups` cannot be pooled; empty if it can.
 std::string why_not_pooled(std::span<const Variant> variants, const std::vector<Members>& groups,
-                           std::span<const PairReport> pairs, std::size_t rounds) {
+                           const Members& untested, std::span<const PairReport> pairs, std::size_t rounds) {
     if (variants.size() < 2) return "one variant alone cannot be pooled";
+    if (!untested.empty() && (groups.empty() || groups.front().size() < 2))
+        return fmt::format(
+            "so few pixels make up the image of {} that nothing can be said about whether it agrees with another: give "
+            "it more time",
+            names_text(variants, untested));
     if (groups.empty() || groups.front().size() < 2)
         return "no two of the variants show the same light and find all of it, and none can be its own reference";
     const Members& members = groups.front();
@@ -73,11 +91,6 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
     };
     for (const PairReport& pair : pairs) {
         if (!pair.comparable || !is_member(pair.a) || !is_member(pair.b)) continue;
-        if (!pair.agreement)
-            return fmt::format(
-                "so few pixels make up the image of '{}' or of '{}' that nothing can be said about their agreement: "
-                "give them more time",
-                pair.a, pair.b);
         if (!pair.agreement->agree())
             return fmt::format("'{}' and '{}' do not make the same image, so none was pooled", pair.a, pair.b);
     }
@@ -198,8 +211,9 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
 std::optional<Reference> pool_reference(std::span<const Variant> variants, std::span<const FinishedImages> images,
                                         std::span<const PairReport> pairs, std::vector<std::string>& notes) {
     const std::size_t rounds = images.front().of_seeds.size();
-    const std::vector<Members> groups = groups_of_light(variants);
-    if (const std::string why_not = why_not_pooled(variants, groups, pairs, rounds); !why_not.empty()) {
+    Members untested;
+    const std::vector<Members> groups = groups_of_light(variants, images, untested);
+    if (const std::string why_not = why_not_pooled(variants, groups, untested, pairs, rounds); !why_not.empty()) {
         notes.push_back(fmt::format(
             "there is no reference, so no errors are given: {}; --reference or --reference-integrator give one",
             why_not));
@@ -229,6 +243,11 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
         "renders of other rounds, weighted by one over the variants' mean relative variance ({}).",
         weights_text(report.weights));
 
+    if (!untested.empty())
+        notes.push_back(fmt::format(
+            "the reference has no part of {}: so few pixels make up the image that nothing can be said about whether it "
+            "agrees with the others, which its errors are against",
+            names_text(variants, untested)));
     const Variant& first = variants[members.front()];
     const std::string& integrator = first.settings.integrator.type;
     if (std::ranges::all_of(members, [&](std::size_t v) { return variants[v].settings.integrator.type == integrator; }))

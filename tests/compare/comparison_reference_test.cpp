@@ -108,6 +108,19 @@ TEST(PoolReference, IsNotMadeOfImagesThatDisagree) {
     EXPECT_NE(pooled.notes.find("do not make the same image"), std::string::npos) << pooled.notes;
 }
 
+TEST(PoolReference, LeavesOutWhatCannotBeTested) {
+    std::vector<FinishedImages> images{finished(0.5f, 0.1f, 1), finished(0.5f, 0.1f, 2), finished(0.5f, 0.1f, 3)};
+    images[0].block_size.reset();
+    const Pooled pooled = pool(variants({"path", "bdpt", "vcm"}), images);
+    ASSERT_TRUE(pooled.reference) << pooled.notes;
+    EXPECT_FALSE(pooled.reference->report().weights.contains("path"));
+    EXPECT_NE(pooled.notes.find("no part of 'path': so few pixels"), std::string::npos) << pooled.notes;
+    images[2].block_size.reset();
+    const Pooled none = pool(variants({"path", "bdpt", "vcm"}), images);
+    EXPECT_FALSE(none.reference);
+    EXPECT_NE(none.notes.find("the image of 'path' and of 'vcm' that nothing"), std::string::npos) << none.notes;
+}
+
 TEST(PoolReference, IsOfTheLightThatMostVariantsShow) {
     std::vector<Variant> all = variants({"direct", "path", "bdpt"});
     const std::vector<FinishedImages> images{finished(0.3f, 0.1f, 1), finished(0.5f, 0.1f, 2), finished(0.5f, 0.1f, 3)};
