@@ -350,7 +350,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
-    if (const std::string note = unequal_times(report); !note.empty()) report.notes.push_back(note);
+    for (const std::string& note : {off_budget(report), unequal_times(report)})
+        if (!note.empty()) report.notes.push_back(note);
 
     // What was measured must not be lost with pictures that cannot be made.
     write_text(files[0], to_json(report));

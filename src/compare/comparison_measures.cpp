@@ -272,6 +272,18 @@ std::string drowned_errors(const ComparisonReport& report) {
         report.reference.noise_rel_mse, fmt::join(names, ", "));
 }
 
+std::string off_budget(const ComparisonReport& report) {
+    constexpr double kMostOff = 0.1;
+    std::vector<std::string> off;
+    if (!report.seconds) return "";
+    for (const VariantReport& variant : report.variants)
+        if (const double time = report.time_of(variant).mean(); std::abs(time / *report.seconds - 1.0) > kMostOff)
+            off.push_back(fmt::format("'{}' {:.3g} s", variant.name, time));
+    if (off.empty()) return "";
+    return fmt::format("in place of {:.3g} s of {}, renders took in the mean: {}; more --seconds come nearer to it",
+                       *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
+}
+
 ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
                      const std::string& working_space, const MeasureContext& context) {
     const ImageF& expected = reference.of_round(0);

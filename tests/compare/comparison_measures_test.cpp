@@ -72,6 +72,20 @@ TEST(UnequalTimes, AreThoseMoreThanATenthApart) {
     EXPECT_EQ(unequal_times(report), "") << "of equal samples times need not be equal";
 }
 
+TEST(OffBudget, AreMeansMoreThanATenthFromTheTimeAskedFor) {
+    ComparisonReport report;
+    report.seconds = 2.0;
+    report.variants = {{.name = "path"}, {.name = "bdpt"}};
+    report.variants[0].cpu_seconds.values = {1.8, 2.0};
+    report.variants[1].cpu_seconds.values = {1.7, 1.8};
+    EXPECT_NE(off_budget(report).find("in the mean: 'bdpt' 1.75 s;"), std::string::npos) << off_budget(report);
+    report.variants[1].cpu_seconds.values = {2.1, 2.1};
+    EXPECT_EQ(off_budget(report), "");
+    report.seconds.reset();
+    report.variants[1].cpu_seconds.values = {9.0};
+    EXPECT_EQ(off_budget(report), "") << "of equal samples there is no such time";
+}
+
 }  // namespace
 
 }  // namespace etendue::test
