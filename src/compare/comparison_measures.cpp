@@ -87,7 +87,6 @@ VariantReport describe(const Variant& variant, const VariantRenders& renders, co
         report.dropped_samples += seed.counters.dropped;
     }
     report.rays = static_cast<std::uint64_t>(std::llround(rays / count));
-    report.rays_per_second = rays / count / report.seconds.mean();
     report.samples_per_cpu_second = samples / count / report.cpu_seconds.mean();
     for (const ImageF& image : images.of_seeds) {
         const std::array<double, 3> mean = mean_color(image, whole(image));
@@ -326,6 +325,7 @@ void measure(ComparisonReport& report, std::span<const Variant> variants, std::s
              std::span<const NamedRegion> regions, const MeasureContext& context) {
     for (std::size_t v = 0; v < variants.size(); ++v) {
         VariantReport& variant = report.variants.emplace_back(describe(variants[v], renders[v], images[v]));
+        variant.rays_per_second = static_cast<double>(variant.rays) / report.time_of(variant).mean();
         // Without any variance there is nothing to tell it by.
         if (variant.variance > 0.0) variant.efficiency = 1.0 / (variant.variance * report.time_of(variant).mean());
         if (!reference) continue;

@@ -484,6 +484,8 @@ TEST_F(Compare, TimesAreEqual) {
         EXPECT_NEAR(variant["cpu_seconds"]["mean"].get<double>() / report["settings"]["seconds"].get<double>(), 1.0,
                     0.1);
     EXPECT_EQ(report["reference"]["kind"], "none") << "one seed cannot be pooled";
+    const json& path = report["variants"][0];
+    EXPECT_NEAR(path["rays_per_second"].get<double>() * path["cpu_seconds"]["mean"].get<double>(), path["rays"], 1.0);
 }
 
 TEST_F(Compare, SaysWhatIsWrong) {
