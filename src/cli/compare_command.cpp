@@ -120,11 +120,27 @@ std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) 
     return requests;
 }
 
+/// The seconds on the clock, or what all threads would take in them if they had the machine to themselves.
+RenderBudget budget_of(double seconds, const CompareArguments& arguments, const ThreadPool& threads) {
+    return {.seconds = arguments.by_wall ? seconds : seconds * threads.thread_count(), .by_wall = arguments.by_wall};
+}
+
 RenderBudget budget_of(const CompareArguments& arguments, const ThreadPool& threads) {
     if (const auto spp = arguments.common.overrides.spp()) return {.spp = *spp};
-    const double seconds = arguments.seconds.value_or(kDefaultSeconds);
-    // What all threads would take if they had the machine to themselves.
-    return {.seconds = arguments.by_wall ? seconds : seconds * threads.thread_count(), .by_wall = arguments.by_wall};
+    return budget_of(arguments.seconds.value_or(kDefaultSeconds), arguments, threads);
+}
+
+/// Returns the time that a reference is rendered for: what is asked for, or ten times that of the longest variant.
+RenderBudget reference_budget(const CompareArguments& arguments, const std::vector<VariantRenders>& renders,
+                              const ThreadPool& threads) {
+    if (arguments.reference_seconds) return budget_of(*arguments.reference_seconds, arguments, threads);
+    double longest = 0.0;
+    for (const VariantRenders& variant : renders)
+        for (const SeedRender& render : variant.seeds) {
+            const Snapshot& last = render.checkpoints.back();
+            longest = std::max(longest, arguments.by_wall ? last.seconds : last.cpu_seconds);
+        }
+    return {.seconds = 10.0 * longest, .by_wall = arguments.by_wall};
 }
 
 std::vector<std::string> file_names(const CompareArguments& arguments) {
@@ -167,7 +183,6 @@ struct RequestedReference {
     std::optional<ImageF> image{};            ///< of the file
     std::optional<ReferenceOrigin> origin{};  ///< of a file that says with which seeds it was rendered
     std::optional<Variant> variant{};      ///< that renders it
-    double seconds = 0.0;                  ///< that it renders for
     std::vector<std::string> notes{};
 };
 
@@ -191,15 +206,15 @@ RequestedReference requested_reference(const CompareArguments& arguments, const 
         }
     } else if (!arguments.reference_integrator.empty()) {
         requested.variant = with_integrator(first, arguments.reference_integrator);
-        requested.seconds = arguments.reference_seconds.value_or(10.0 * arguments.seconds.value_or(kDefaultSeconds));
         requested.notes = reference_notes(*requested.variant, variants);
     }
     return requested;
 }
 
-/// `seed` is that of its render, if it is rendered.
+/// `seed` is the first of its renders', if it is rendered.
 std::optional<Reference> find_reference(const CompareArguments& arguments, RequestedReference requested,
                                         std::uint32_t seed, const std::vector<Variant>& variants,
+                                        const std::vector<VariantRenders>& renders,
                                         const std::vector<FinishedImages>& images, const ThreadPool& threads,
                                         ComparisonReport& report) {
     if (requested.image) {
@@ -211,16 +226,24 @@ std::optional<Reference> find_reference(const CompareArguments& arguments, Reque
         return Reference({std::move(*requested.image), std::move(*requested.origin->variance)}, std::move(file));
     }
     if (!requested.variant) return pool_reference(variants, images, report.pairs, report.notes);
-    auto image = render_reference(*requested.variant, requested.seconds, seed, threads, arguments.quiet);
-    if (!image) {
+    const auto rendered = render_reference(*requested.variant, reference_budget(arguments, renders, threads), seed,
+                                           threads, arguments.quiet);
+    if (!rendered) {
         report.notes.emplace_back(
             "there is no reference, so no errors are given: it was not rendered, because the comparison was "
             "interrupted");
         return std::nullopt;
     }
-    return Reference(std::move(*image), {.kind = "integrator",
-                                         .text = fmt::format("Rendered by {} for {:g} s with a seed of its own, {}.",
-                                                             requested.variant->name, requested.seconds, seed)});
+    return Reference(estimate_image(rendered->images),
+                     {.kind = "integrator",
+                      .text = fmt::format("Rendered by {} in {} parts of {} samples per pixel with seeds of their own, "
+                                          "from {} on, in {:.3g} s, {:.3g} s of CPU time.",
+                                          requested.variant->name, kReferenceRenders, rendered->spp, seed,
+                                          rendered->seconds, rendered->cpu_seconds),
+                      .seeds = {seed, kReferenceRenders},
+                      .spp = kReferenceRenders * rendered->spp,
+                      .seconds = rendered->seconds,
+                      .cpu_seconds = rendered->cpu_seconds});
 }
 
 /// Writes what there is besides report and page, in place of what an earlier comparison has left.
@@ -335,7 +358,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const std::uint32_t reference_seed =
         render_seed(request.first_seed, static_cast<std::size_t>(request.seeds), 0, variants.size());
     const std::optional<Reference> reference =
-        find_reference(arguments, std::move(requested), reference_seed, variants, images, threads, report);
+        find_reference(arguments, std::move(requested), reference_seed, variants, renders, images, threads, report);
     report.reference = reference ? reference->report() : ReferenceReport{.kind = "none", .text = "There is none."};
     if (report.reference.kind == "pooled")
         report.reference.seeds = {request.first_seed, static_cast<std::uint32_t>(rounds * variants.size())};
@@ -350,7 +373,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
-    for (const std::string& note : {off_budget(report), unequal_times(report)})
+    for (const std::string& note : {reference_noise(report), off_budget(report), unequal_times(report)})
         if (!note.empty()) report.notes.push_back(note);
 
     // What was measured must not be lost with pictures that cannot be made.
@@ -407,7 +430,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
     by->check(CLI::IsMember(integrator_names()))->excludes(file);
     command
         .add_option("--reference-seconds", arguments.reference_seconds,
-                    "Time of that render (default: ten times --seconds)")
+                    "Time of that render, counted as --seconds is (default: ten times that of the longest variant)")
         ->check(real_range(1e-3, 1e9))
         ->needs(by);
     command

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -269,6 +270,21 @@ std::string drowned_errors(const ComparisonReport& report) {
         "the reference's noise, a relMSE of {:.3g}, hides errors of {}, which are not known: a reference with less "
         "noise, or more --seeds, would show them",
         report.reference.noise_rel_mse, fmt::join(names, ", "));
+}
+
+std::string reference_noise(const ComparisonReport& report) {
+    constexpr double kMuch = 0.1;
+    const double noise = report.reference.noise_rel_mse;
+    double least = std::numeric_limits<double>::infinity();
+    for (const VariantReport& variant : report.variants)
+        if (const auto errors = variant.errors.find(kRelMse); errors != variant.errors.end())
+            least = std::fmin(least, errors->second.mean());
+    // A pooled one has that much in any case.
+    if (report.reference.kind == "pooled" || !std::isfinite(least) || !(noise > kMuch * least)) return "";
+    return fmt::format(
+        "the reference's own noise, a relMSE of {:.3g}, is {:.0f}% of the least relMSE: it is taken off relMSE and MSE, "
+        "and the other errors are so much too large; a longer reference has less",
+        noise, 100.0 * noise / least);
 }
 
 std::string off_budget(const ComparisonReport& report) {

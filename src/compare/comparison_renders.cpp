@@ -196,14 +196,24 @@ std::vector<VariantRenders> render_variants(std::span<const Variant> variants, c
     return renders;
 }
 
-std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
-                                       const ThreadPool& threads, bool quiet) {
-    TimedRender render(variant, seed, threads, {.seconds = seconds, .by_wall = true}, "reference by " + variant.name,
-                       quiet);
-    while (render.advance(kMostSamples)) {
+std::optional<ReferenceRenders> render_reference(const Variant& variant, const RenderBudget& budget,
+                                                 std::uint32_t first_seed, const ThreadPool& threads, bool quiet) {
+    ReferenceRenders result;
+    RenderBudget of_one = budget;
+    if (of_one.seconds) *of_one.seconds /= kReferenceRenders;
+    for (std::uint32_t i = 0; i < kReferenceRenders; ++i) {
+        TimedRender render(variant, first_seed + i, threads, of_one,
+                           fmt::format("reference by {} {}/{}", variant.name, i + 1, kReferenceRenders), quiet);
+        while (render.advance(kMostSamples)) {
+        }
+        if (interrupt_requested()) return std::nullopt;
+        result.images.push_back(render.image());
+        result.spp = render.spp();
+        result.seconds += render.seconds();
+        result.cpu_seconds += render.cpu_seconds();
+        of_one = {.spp = render.spp()};
     }
-    if (interrupt_requested()) return std::nullopt;
-    return render.image();
+    return result;
 }
 
 }  // namespace etendue

@@ -66,8 +66,21 @@ struct RendersRequest {
                                                           const RendersRequest& request, ImageStore& store,
                                                           const ThreadPool& threads);
 
-/// One image of `variant`, R, G and B, with a seed of its own; nothing if it is interrupted.
-[[nodiscard]] std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
-                                                     const ThreadPool& threads, bool quiet);
+/// Holds renders of as many samples that are a reference together, each with a seed of its own.
+struct ReferenceRenders {
+    std::vector<ImageF> images{};  ///< R, G and B
+    std::uint32_t spp = 0;         ///< samples of each
+    double seconds = 0.0;          ///< seconds of all
+    double cpu_seconds = 0.0;
+};
+
+/// The renders of a reference: a few, so that their differences tell its noise.
+inline constexpr std::uint32_t kReferenceRenders = 4;
+
+/// Renders `variant` with seeds from `first_seed` on; the seconds of `budget` are for all renders. Returns nothing if it
+/// is interrupted.
+[[nodiscard]] std::optional<ReferenceRenders> render_reference(const Variant& variant, const RenderBudget& budget,
+                                                               std::uint32_t first_seed, const ThreadPool& threads,
+                                                               bool quiet);
 
 }  // namespace etendue

@@ -164,7 +164,10 @@ struct ReferenceReport {
     std::string text{};                       ///< a sentence
     std::map<std::string, double> weights{};  ///< weights of variants in a pooled reference
     double noise_rel_mse = kUnknown;          ///< relMSE of the reference's own noise, which squared errors are without
-    SeedRange seeds{};                        ///< seeds that a pooled reference was rendered with; else none
+    SeedRange seeds{};                        ///< seeds that it was pooled from or rendered with; else none
+    std::uint32_t spp = 0;                    ///< samples per pixel of all renders, if it was rendered
+    double seconds = kUnknown;                ///< seconds of these renders
+    double cpu_seconds = kUnknown;
 };
 
 /// Holds the values that the first and the last colour of a kind of maps stand for.

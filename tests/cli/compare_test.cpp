@@ -442,7 +442,13 @@ TEST_F(Compare, MeasuresAgainstAFileOrAnotherIntegrator) {
                        "--strategies-depth", "0"})
                   .exit_code,
               0);
-    EXPECT_EQ(report()["reference"]["kind"], "integrator");
+    const json reference = report()["reference"];
+    EXPECT_EQ(reference["kind"], "integrator");
+    EXPECT_GT(reference["noise_relmse"], 0.0);
+    EXPECT_EQ(reference["spp"].get<int>() % 4, 0);
+    const double budget = 0.1 * report()["machine"]["threads"].get<int>();
+    EXPECT_NEAR(reference["cpu_seconds"].get<double>() / budget, 1.0, 0.4) << "counted as variants' time is";
+    EXPECT_EQ(reference["seeds"], (json{{"first", 2}, {"count", 4}})) << "after those of the variants";
     EXPECT_NE(report()["notes"].dump().find("would not be seen"), std::string::npos)
         << "the reference is made by an algorithm under test";
 }

@@ -72,6 +72,22 @@ TEST(UnequalTimes, AreThoseMoreThanATenthApart) {
     EXPECT_EQ(unequal_times(report), "") << "of equal samples times need not be equal";
 }
 
+TEST(ReferenceNoise, IsNotedWhereItIsMuchOfTheLeastError) {
+    ComparisonReport report;
+    report.reference = {.kind = "integrator", .noise_rel_mse = 0.3};
+    report.variants = {{.name = "path", .errors = {{"relmse", {{1.0, 2.0}}}}},
+                       {.name = "bdpt", .errors = {{"relmse", {{4.0}}}}},
+                       {.name = "light", .errors = {{"relmse", {{kUnknown}}}}}};
+    EXPECT_NE(reference_noise(report).find("a relMSE of 0.3, is 20% of the least"), std::string::npos)
+        << reference_noise(report);
+    report.reference.kind = "pooled";
+    EXPECT_EQ(reference_noise(report), "");
+    report.reference = {.kind = "file", .noise_rel_mse = 0.14};
+    EXPECT_EQ(reference_noise(report), "");
+    report.reference.noise_rel_mse = kUnknown;
+    EXPECT_EQ(reference_noise(report), "");
+}
+
 TEST(OffBudget, AreMeansMoreThanATenthFromTheTimeAskedFor) {
     ComparisonReport report;
     report.seconds = 2.0;
