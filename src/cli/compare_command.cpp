@@ -385,7 +385,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
     add_images(pictures, report, images, reference, maps, view, context);
     const int longest_strategy = arguments.longest_strategy.value_or(kDefaultStrategies);
     if (const Variant* const bdpt = first_with_strategies(variants); bdpt != nullptr && longest_strategy > 0)
-        add_strategies(pictures, report, *bdpt, longest_strategy, view, context, arguments.quiet);
+        add_strategies(pictures, report, *bdpt, renders[static_cast<std::size_t>(bdpt - variants.data())],
+                       longest_strategy, view, context, arguments.quiet);
 
     write_text(files[0], to_json(report));
     write_text(files[1], make_page(report, pictures));

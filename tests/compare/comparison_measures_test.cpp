@@ -1,3 +1,4 @@
+#include "compare/comparison_images.h"
 #include "compare/comparison_measures.h"
 
 #include <cmath>
@@ -86,6 +87,15 @@ TEST(ReferenceNoise, IsNotedWhereItIsMuchOfTheLeastError) {
     EXPECT_EQ(reference_noise(report), "");
     report.reference.noise_rel_mse = kUnknown;
     EXPECT_EQ(reference_noise(report), "");
+}
+
+TEST(FitStrategies, TakesNoLongerThanTheirShare) {
+    EXPECT_EQ(fit_strategies(10.0, 1.0, 1.0).spp, 8u);
+    EXPECT_EQ(fit_strategies(3.9, 2.0, 0.5).spp, 4u);
+    EXPECT_EQ(fit_strategies(3.9, 2.0, 0.5).scale, 1.0);
+    EXPECT_EQ(fit_strategies(1.0, 4.0, 0.5).spp, 1u);
+    EXPECT_EQ(fit_strategies(1.0, 4.0, 0.5).scale, 0.5);
+    EXPECT_EQ(fit_strategies(1.0, 400.0, 0.5).scale, 0.25) << "of less nothing can be seen";
 }
 
 TEST(OffBudget, AreMeansMoreThanATenthFromTheTimeAskedFor) {
