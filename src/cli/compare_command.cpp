@@ -269,15 +269,10 @@ const Variant* first_with_strategies(const std::vector<Variant>& variants) {
     return found == variants.end() ? nullptr : &*found;
 }
 
-/// Returns the regions of --insets, by the variant that finds most kinds of light: one with strategies, or the first.
-std::vector<NamedRegion> class_regions(const CompareArguments& arguments, const std::vector<VariantRequest>& requests,
-                                       const std::vector<Variant>& variants, const MeasureContext& context,
-                                       std::vector<std::string>& notes) {
-    if (arguments.inset_classes.empty()) return {};
+/// Returns the variant that finds most kinds of light: one with strategies, or the first.
+const Variant& variant_of_insets(const std::vector<Variant>& variants) {
     const Variant* const with_strategies = first_with_strategies(variants);
-    const Variant& variant = with_strategies != nullptr ? *with_strategies : variants.front();
-    const auto request = std::ranges::find(requests, variant.name, &VariantRequest::name);
-    return regions_of_classes(arguments.scene, *request, variant, arguments.inset_classes, context, notes);
+    return with_strategies != nullptr ? *with_strategies : variants.front();
 }
 
 /// Throws SceneError if options that were given would change nothing.
@@ -325,6 +320,10 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const PixelRect& window = variants.front().sampling.window;
     require_regions_within(arguments.regions, window);
     require_effective(arguments, variants);
+    const Variant& of_insets = variant_of_insets(variants);
+    const AovPlan insets =
+        plan_of_classes(arguments.scene, *std::ranges::find(requests, of_insets.name, &VariantRequest::name),
+                        arguments.inset_classes);
     RequestedReference requested = requested_reference(arguments, variants, colors);
     std::optional<RenderPage> page;
     if (const auto port = live_port(arguments.live)) page.emplace(*port);
@@ -341,7 +340,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const std::vector<std::filesystem::path> files = prepare_directory(arguments.output, file_names(arguments), inputs);
     ImageStore store(arguments.output, window.width(), window.height(), 3);
     const MeasureContext context{colors, threads, store};
-    const std::vector<NamedRegion> of_classes = class_regions(arguments, requests, variants, context, requested.notes);
+    const std::vector<NamedRegion> of_classes = regions_of_classes(of_insets, insets, context, requested.notes);
     const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
     if (page) page->enter(interrupt_requested() ? "stopped" : "measure");
     const std::size_t rounds = renders.front().seeds.size();
