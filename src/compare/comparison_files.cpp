@@ -77,6 +77,32 @@ std::string plain_name(const std::string& name) {
     return result;
 }
 
+/// True if `path` is an image that another comparison has kept: its name is what its header says, or would be in a file
+/// that says no command (SOURCE_DATE_EPOCH).
+bool is_kept_render(const fs::path& path) {
+    ChannelImage image;
+    try {
+        image = read_channels(path);
+    } catch (const IoError&) {
+        return false;
+    }
+    const std::string command = text_of(image, "etendue:command");
+    const std::string name = plain_name(text_of(image, "etendue:integrator"));
+    const std::string file = path.filename().string();
+    return (command.empty() || command.starts_with("etendue compare ")) && !name.empty() && file.starts_with(name) &&
+           file.ends_with(fmt::format("-seed{}.exr", text_of(image, "etendue:seed")));
+}
+
+/// Removes what `is_kept_render` finds in `directory`.
+void remove_kept_renders(const fs::path& directory) {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+        if (entry.is_regular_file() && entry.path().filename().string().find("-seed") != std::string::npos &&
+            is_kept_render(entry.path()))
+            found.push_back(entry.path());
+    for (const fs::path& file : found) fs::remove(file);
+}
+
 }  // namespace
 
 std::vector<std::string> names_of_data_files() {
@@ -158,6 +184,7 @@ std::string render_file_name(const ComparisonReport& report, std::size_t variant
 void write_renders(const fs::path& directory, const ComparisonReport& report, std::span<const FinishedImages> images,
                    const ColorConfig& colors) {
     fs::create_directories(directory);
+    remove_kept_renders(directory);
     for (std::size_t v = 0; v < images.size(); ++v)
         for (std::size_t i = 0; i < images[v].of_seeds.size(); ++i) {
             const VariantReport& variant = report.variants[v];

@@ -45,7 +45,8 @@ struct ReferenceOrigin {
 /// Returns the file's name of the render of a variant with `seed`, unlike that of any other of `report`.
 [[nodiscard]] std::string render_file_name(const ComparisonReport& report, std::size_t variant, std::uint32_t seed);
 
-/// Writes the last image of every render to `directory`, which is made.
+/// Writes the last image of every render to `directory`, which is made, in place of those that an earlier comparison has
+/// written there.
 void write_renders(const std::filesystem::path& directory, const ComparisonReport& report,
                    std::span<const FinishedImages> images, const ColorConfig& colors);
 

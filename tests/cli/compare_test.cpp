@@ -115,8 +115,12 @@ TEST_F(Compare, TheNextComparisonTakesAPooledReference) {
     EXPECT_FALSE(fs::exists(work_ / "report/reference.exr"));
     EXPECT_EQ(list(work_ / "report/images").size(), 6u);
     EXPECT_TRUE(fs::exists(work_ / "report/images/bdpt-seed7.exr"));
+    write_grey("report/images/path-seed99.exr");
     next.insert(next.end(), {"--seed", "5"});
     ASSERT_EQ(compare(next).exit_code, 0);
+    EXPECT_FALSE(fs::exists(work_ / "report/images/bdpt-seed7.exr")) << "another comparison's";
+    EXPECT_TRUE(fs::exists(work_ / "report/images/path-seed99.exr")) << "none of Etendue's";
+    EXPECT_EQ(list(work_ / "report/images").size(), 7u);
     EXPECT_NE(notes().find("some of the same seeds"), std::string::npos) << notes();
 }
 
