@@ -372,7 +372,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
-    for (const std::string& note : {reference_noise(report), off_budget(report), unequal_times(report)})
+    for (const std::string& note : {reference_noise(report), off_budget(report), unequal_times(report), lost_in_pdf(report)})
         if (!note.empty()) report.notes.push_back(note);
 
     // What was measured must not be lost with pictures that cannot be made.

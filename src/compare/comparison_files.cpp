@@ -125,6 +125,19 @@ void write_data_files(const fs::path& directory, const ComparisonReport& report)
     fs::remove(directory / kPlotsDirectory, ignored);  // if it is empty
 }
 
+std::string lost_in_pdf(const ComparisonReport& report) {
+    std::vector<std::string> names;
+    const auto look_at = [&](const std::string& name) {
+        if (!has_pdf_text(name)) names.push_back(fmt::format("'{}'", name));
+    };
+    look_at(report.scene);
+    for (const VariantReport& variant : report.variants) look_at(variant.name);
+    if (report.metrics.empty() || names.empty()) return "";
+    return fmt::format("plots in PDF have question marks for characters of {}: their font has Western European ones "
+                       "alone, and the plots in SVG have all",
+                       fmt::join(names, ", "));
+}
+
 void write_reference(const fs::path& path, const Reference& reference, const ComparisonReport& report,
                      const ColorConfig& colors) {
     OutputFrame frame = frame_of(report);
