@@ -182,7 +182,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
 struct RequestedReference {
     std::optional<ImageF> image{};            ///< of the file
     std::optional<ReferenceOrigin> origin{};  ///< of a file that says with which seeds it was rendered
-    std::optional<Variant> variant{};      ///< that renders it
+    std::optional<Variant> variant{};         ///< that renders it
     std::vector<std::string> notes{};
 };
 
@@ -321,9 +321,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
     require_regions_within(arguments.regions, window);
     require_effective(arguments, variants);
     const Variant& of_insets = variant_of_insets(variants);
-    const AovPlan insets =
-        plan_of_classes(arguments.scene, *std::ranges::find(requests, of_insets.name, &VariantRequest::name),
-                        arguments.inset_classes);
+    const AovPlan insets = plan_of_classes(
+        arguments.scene, *std::ranges::find(requests, of_insets.name, &VariantRequest::name), arguments.inset_classes);
     RequestedReference requested = requested_reference(arguments, variants, colors);
     std::optional<RenderPage> page;
     if (const auto port = live_port(arguments.live)) page.emplace(*port);
@@ -372,7 +371,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
-    for (const std::string& note : {reference_noise(report), off_budget(report), unequal_times(report), lost_in_pdf(report)})
+    for (const std::string& note :
+         {reference_noise(report), off_budget(report), unequal_times(report), lost_in_pdf(report)})
         if (!note.empty()) report.notes.push_back(note);
 
     // What was measured must not be lost with pictures that cannot be made.

@@ -76,7 +76,8 @@ std::vector<NamedRegion> regions_of_classes(const Variant& variant, const AovPla
         if (found)
             regions.push_back({plan.outputs[i].name, *found, false});
         else
-            notes.push_back(fmt::format("the image has no light of the class '{}' to look at (--insets)", plan.outputs[i].name));
+            notes.push_back(
+                fmt::format("the image has no light of the class '{}' to look at (--insets)", plan.outputs[i].name));
     }
     return regions;
 }

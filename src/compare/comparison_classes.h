@@ -13,8 +13,8 @@
 namespace etendue {
 
 /// Returns what is to be rendered for `classes`, names of layers of light such as "caustics", of a variant that is made
-/// of `scene` by `request`. Throws SceneError if there is no such layer of light, or the variant's integrator cannot tell
-/// it apart.
+/// of `scene` by `request`. Throws SceneError if there is no such layer of light, or the variant's integrator cannot
+/// tell it apart.
 [[nodiscard]] AovPlan plan_of_classes(const std::filesystem::path& scene, const VariantRequest& request,
                                       std::span<const std::string> classes);
 

@@ -133,9 +133,10 @@ std::string lost_in_pdf(const ComparisonReport& report) {
     look_at(report.scene);
     for (const VariantReport& variant : report.variants) look_at(variant.name);
     if (report.metrics.empty() || names.empty()) return "";
-    return fmt::format("plots in PDF have question marks for characters of {}: their font has Western European ones "
-                       "alone, and the plots in SVG have all",
-                       fmt::join(names, ", "));
+    return fmt::format(
+        "plots in PDF have question marks for characters of {}: their font has Western European ones "
+        "alone, and the plots in SVG have all",
+        fmt::join(names, ", "));
 }
 
 void write_reference(const fs::path& path, const Reference& reference, const ComparisonReport& report,
@@ -178,8 +179,8 @@ std::optional<ReferenceOrigin> read_reference_origin(const fs::path& path, const
         if (noise >= channels) return origin;
         for (int y = 0; y < variance.height; ++y)
             for (int x = 0; x < variance.width; ++x) {
-                const float error = image.pixels.pixel(x + window.x0 + full.x0 - data.x0,
-                                                       y + window.y0 + full.y0 - data.y0)[noise];
+                const float error =
+                    image.pixels.pixel(x + window.x0 + full.x0 - data.x0, y + window.y0 + full.y0 - data.y0)[noise];
                 variance.pixel(x, y)[c] = error * error;
             }
     }

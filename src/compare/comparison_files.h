@@ -35,8 +35,8 @@ void write_reference(const std::filesystem::path& path, const Reference& referen
 
 /// Holds what a file that Etendue has rendered says of its image.
 struct ReferenceOrigin {
-    SeedRange seeds{};                ///< seeds of the renders that it was made of
-    bool has_other_renders = false;   ///< another comparison has made it of several renders
+    SeedRange seeds{};                 ///< seeds of the renders that it was made of
+    bool has_other_renders = false;    ///< another comparison has made it of several renders
     std::optional<ImageF> variance{};  ///< variance of each value, R, G and B in the file's colour space, if known
 };
 
@@ -48,8 +48,8 @@ struct ReferenceOrigin {
 /// Returns the file's name of the render of a variant with `seed`, unlike that of any other of `report`.
 [[nodiscard]] std::string render_file_name(const ComparisonReport& report, std::size_t variant, std::uint32_t seed);
 
-/// Writes the last image of every render to `directory`, which is made, in place of those that an earlier comparison has
-/// written there.
+/// Writes the last image of every render to `directory`, which is made, in place of those that an earlier comparison
+/// has written there.
 void write_renders(const std::filesystem::path& directory, const ComparisonReport& report,
                    std::span<const FinishedImages> images, const ColorConfig& colors);
 

@@ -26,7 +26,7 @@ namespace {
 /// Share of the pixels that a map of relMSE shows below its last colour: the rest is fireflies.
 constexpr double kMapQuantile = 0.95;
 
-constexpr int kStrategyWidth = 240;  // pixels
+constexpr int kStrategyWidth = 240;          // pixels
 constexpr double kStrategyShare = 0.2;       // of the CPU time of all renders
 constexpr double kLeastStrategySeconds = 1;  // that they may take in any case
 
@@ -72,9 +72,9 @@ StrategyPlan plan_strategies(const ComparisonReport& report, const Variant& vari
                              std::size_t images) {
     const std::vector<Snapshot>& kept = renders.seeds.front().checkpoints;
     const double first = kept.front().cpu_seconds / kept.front().spp;
-    const double later = kept.size() > 1 ? (kept.back().cpu_seconds - kept.front().cpu_seconds) /
-                                               (kept.back().spp - kept.front().spp)
-                                         : first;
+    const double later =
+        kept.size() > 1 ? (kept.back().cpu_seconds - kept.front().cpu_seconds) / (kept.back().spp - kept.front().spp)
+                        : first;
     const double scale = std::min(1.0, static_cast<double>(kStrategyWidth) / variant.sampling.window.width());
     StrategyPlan plan = fit_strategies(strategy_seconds(report) / static_cast<double>(images), scale * scale * first,
                                        scale * scale * later);

@@ -44,7 +44,11 @@ using Members = std::vector<std::size_t>;
 std::string names_text(std::span<const Variant> variants, const Members& members) {
     std::string text;
     for (std::size_t i = 0; i < members.size(); ++i)
-        text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 < members.size() ? ", " : " and of ", variants[members[i]].name);
+        text += fmt::format("{}'{}'",
+                            i == 0                   ? ""
+                            : i + 1 < members.size() ? ", "
+                                                     : " and of ",
+                            variants[members[i]].name);
     return text;
 }
 
@@ -244,10 +248,11 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
         weights_text(report.weights));
 
     if (!untested.empty())
-        notes.push_back(fmt::format(
-            "the reference has no part of {}: so few pixels make up the image that nothing can be said about whether it "
-            "agrees with the others, which its errors are against",
-            names_text(variants, untested)));
+        notes.push_back(
+            fmt::format("the reference has no part of {}: so few pixels make up the image that nothing can be said "
+                        "about whether it "
+                        "agrees with the others, which its errors are against",
+                        names_text(variants, untested)));
     const Variant& first = variants[members.front()];
     const std::string& integrator = first.settings.integrator.type;
     if (std::ranges::all_of(members, [&](std::size_t v) { return variants[v].settings.integrator.type == integrator; }))

@@ -67,10 +67,9 @@ struct FinishedImages {
 
 /// Pools a reference: the mean of all renders of the variants that show the same light and find all of it, of all
 /// rounds but one each time, weighted by one over their mean relative variance, or those without any alike and the
-/// others not at all. Variants whose images cannot be tested have no part in it. If there are several kinds of light, the
-/// one that most variants show. None if fewer than two variants, or fewer than three rounds, are there to be pooled, or
-/// if those variants disagree.
-/// `notes` gets what is to be said of the reference.
+/// others not at all. Variants whose images cannot be tested have no part in it. If there are several kinds of light,
+/// the one that most variants show. None if fewer than two variants, or fewer than three rounds, are there to be
+/// pooled, or if those variants disagree. `notes` gets what is to be said of the reference.
 [[nodiscard]] std::optional<Reference> pool_reference(std::span<const Variant> variants,
                                                       std::span<const FinishedImages> images,
                                                       std::span<const PairReport> pairs,

@@ -77,8 +77,8 @@ struct ReferenceRenders {
 /// The renders of a reference: a few, so that their differences tell its noise.
 inline constexpr std::uint32_t kReferenceRenders = 4;
 
-/// Renders `variant` with seeds from `first_seed` on; the seconds of `budget` are for all renders. Returns nothing if it
-/// is interrupted.
+/// Renders `variant` with seeds from `first_seed` on; the seconds of `budget` are for all renders. Returns nothing if
+/// it is interrupted.
 [[nodiscard]] std::optional<ReferenceRenders> render_reference(const Variant& variant, const RenderBudget& budget,
                                                                std::uint32_t first_seed, const ThreadPool& threads,
                                                                bool quiet);

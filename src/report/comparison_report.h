@@ -70,7 +70,7 @@ struct VariantReport {
     SeedValues seconds{};
     SeedValues cpu_seconds{};
     double samples_per_cpu_second = 0.0;
-    std::uint64_t rays = 0;  ///< rays of one render, on average
+    std::uint64_t rays = 0;        ///< rays of one render, on average
     double rays_per_second = 0.0;  ///< rays by the time by which variants are compared
     std::array<double, 3> mean{};  ///< R, G, B of all renders
     std::uint64_t dropped_samples = 0;

@@ -1,5 +1,6 @@
-#include "compare/comparison_images.h"
 #include "compare/comparison_measures.h"
+
+#include "compare/comparison_images.h"
 
 #include <cmath>
 #include <limits>
@@ -42,10 +43,8 @@ TEST(FindRegions, LeaveOutWhatIsNoNumber) {
 }
 
 TEST(DropDrowned, LeavesWhatIsAboveTheNoise) {
-    ErrorsByMetric errors{{"relmse", {{0.3, -0.1}}},
-                          {"relmse-trimmed", {{0.1, -0.2}}},
-                          {"mse", {{0.0, 0.0}}},
-                          {"mae", {{0.0, 0.0}}}};
+    ErrorsByMetric errors{
+        {"relmse", {{0.3, -0.1}}}, {"relmse-trimmed", {{0.1, -0.2}}}, {"mse", {{0.0, 0.0}}}, {"mae", {{0.0, 0.0}}}};
     drop_drowned(errors);
     EXPECT_DOUBLE_EQ(errors.at("relmse").mean(), 0.1) << "one seed's may be negative by chance";
     EXPECT_TRUE(std::isnan(errors.at("relmse-trimmed").mean()));

@@ -72,8 +72,7 @@ TEST(RenderStrategies, AddUpToTheImageWhereLampsInMirrorsAreFound) {
     MaterialDesc mirror;
     mirror.roughness = 0.0f;
     add_object(scene, quad({0, 0, -2}, {3, 0, 0}, {0, 3, 0}), add_material(scene, mirror));
-    add_object(scene, quad({0.3f, 0.1f, 1}, {-0.004f, 0, 0}, {0, 0.004f, 0}),
-               add_material(scene, emissive(Rgb(1e5f))));
+    add_object(scene, quad({0.3f, 0.1f, 1}, {-0.004f, 0, 0}, {0, 0.004f, 0}), add_material(scene, emissive(Rgb(1e5f))));
     const World world = compile(std::move(scene));
     const ThreadPool threads(2);
     const std::atomic<bool> stop{false};
