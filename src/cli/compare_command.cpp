@@ -120,11 +120,27 @@ std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) 
     return requests;
 }
 
+/// The seconds on the clock, or what all threads would take in them if they had the machine to themselves.
+RenderBudget budget_of(double seconds, const CompareArguments& arguments, const ThreadPool& threads) {
+    return {.seconds = arguments.by_wall ? seconds : seconds * threads.thread_count(), .by_wall = arguments.by_wall};
+}
+
 RenderBudget budget_of(const CompareArguments& arguments, const ThreadPool& threads) {
     if (const auto spp = arguments.common.overrides.spp()) return {.spp = *spp};
-    const double seconds = arguments.seconds.value_or(kDefaultSeconds);
-    // What all threads would take if they had the machine to themselves.
-    return {.seconds = arguments.by_wall ? seconds : seconds * threads.thread_count(), .by_wall = arguments.by_wall};
+    return budget_of(arguments.seconds.value_or(kDefaultSeconds), arguments, threads);
+}
+
+/// Returns the time that a reference is rendered for: what is asked for, or ten times that of the longest variant.
+RenderBudget reference_budget(const CompareArguments& arguments, const std::vector<VariantRenders>& renders,
+                              const ThreadPool& threads) {
+    if (arguments.reference_seconds) return budget_of(*arguments.reference_seconds, arguments, threads);
+    double longest = 0.0;
+    for (const VariantRenders& variant : renders)
+        for (const SeedRender& render : variant.seeds) {
+            const Snapshot& last = render.checkpoints.back();
+            longest = std::max(longest, arguments.by_wall ? last.seconds : last.cpu_seconds);
+        }
+    return {.seconds = 10.0 * longest, .by_wall = arguments.by_wall};
 }
 
 std::vector<std::string> file_names(const CompareArguments& arguments) {
@@ -164,10 +180,9 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
 
 /// A reference that is asked for: what can be known of it before anything is rendered.
 struct RequestedReference {
-    std::optional<ImageF> image{};         ///< of the file
-    std::optional<PooledOrigin> origin{};  ///< of a file that another comparison has pooled
-    std::optional<Variant> variant{};      ///< that renders it
-    double seconds = 0.0;                  ///< that it renders for
+    std::optional<ImageF> image{};            ///< of the file
+    std::optional<ReferenceOrigin> origin{};  ///< of a file that says with which seeds it was rendered
+    std::optional<Variant> variant{};         ///< that renders it
     std::vector<std::string> notes{};
 };
 
@@ -181,37 +196,54 @@ RequestedReference requested_reference(const CompareArguments& arguments, const 
                                                   sampling.window, first.settings.color.working_space, colors);
         requested.image = std::move(file.pixels);
         requested.notes = std::move(file.warnings);
-        requested.origin = read_pooled_origin(arguments.reference);
+        requested.origin = read_reference_origin(arguments.reference, sampling.window);
+        if (requested.origin && requested.origin->variance && file.is_converted) {
+            requested.origin->variance.reset();
+            requested.notes.push_back(
+                fmt::format("the noise of '{}' is known in its own colour space alone, and is a part of all errors: "
+                            "--working-space has that one",
+                            arguments.reference));
+        }
     } else if (!arguments.reference_integrator.empty()) {
         requested.variant = with_integrator(first, arguments.reference_integrator);
-        requested.seconds = arguments.reference_seconds.value_or(10.0 * arguments.seconds.value_or(kDefaultSeconds));
         requested.notes = reference_notes(*requested.variant, variants);
     }
     return requested;
 }
 
-/// `seed` is that of its render, if it is rendered.
+/// `seed` is the first of its renders', if it is rendered.
 std::optional<Reference> find_reference(const CompareArguments& arguments, RequestedReference requested,
                                         std::uint32_t seed, const std::vector<Variant>& variants,
+                                        const std::vector<VariantRenders>& renders,
                                         const std::vector<FinishedImages>& images, const ThreadPool& threads,
                                         ComparisonReport& report) {
-    if (requested.image)
-        return Reference(std::move(*requested.image),
-                         {.kind = "file",
-                          .text = fmt::format("The file {}{}.", arguments.reference,
-                                              requested.origin ? ", which another comparison has pooled" : ""),
-                          .noise_rel_mse = requested.origin ? requested.origin->noise_rel_mse : kUnknown});
+    if (requested.image) {
+        const bool is_of_comparison = requested.origin && requested.origin->has_other_renders;
+        ReferenceReport file{.kind = "file",
+                             .text = fmt::format("The file {}{}.", arguments.reference,
+                                                 is_of_comparison ? ", which another comparison has made" : "")};
+        if (!requested.origin || !requested.origin->variance) return Reference(std::move(*requested.image), file);
+        return Reference({std::move(*requested.image), std::move(*requested.origin->variance)}, std::move(file));
+    }
     if (!requested.variant) return pool_reference(variants, images, report.pairs, report.notes);
-    auto image = render_reference(*requested.variant, requested.seconds, seed, threads, arguments.quiet);
-    if (!image) {
+    const auto rendered = render_reference(*requested.variant, reference_budget(arguments, renders, threads), seed,
+                                           threads, arguments.quiet);
+    if (!rendered) {
         report.notes.emplace_back(
             "there is no reference, so no errors are given: it was not rendered, because the comparison was "
             "interrupted");
         return std::nullopt;
     }
-    return Reference(std::move(*image), {.kind = "integrator",
-                                         .text = fmt::format("Rendered by {} for {:g} s with a seed of its own, {}.",
-                                                             requested.variant->name, requested.seconds, seed)});
+    return Reference(estimate_image(rendered->images),
+                     {.kind = "integrator",
+                      .text = fmt::format("Rendered by {} in {} parts of {} samples per pixel with seeds of their own, "
+                                          "from {} on, in {:.3g} s, {:.3g} s of CPU time.",
+                                          requested.variant->name, kReferenceRenders, rendered->spp, seed,
+                                          rendered->seconds, rendered->cpu_seconds),
+                      .seeds = {seed, kReferenceRenders},
+                      .spp = kReferenceRenders * rendered->spp,
+                      .seconds = rendered->seconds,
+                      .cpu_seconds = rendered->cpu_seconds});
 }
 
 /// Writes what there is besides report and page, in place of what an earlier comparison has left.
@@ -237,15 +269,10 @@ const Variant* first_with_strategies(const std::vector<Variant>& variants) {
     return found == variants.end() ? nullptr : &*found;
 }
 
-/// Returns the regions of --insets, by the variant that finds most kinds of light: one with strategies, or the first.
-std::vector<NamedRegion> class_regions(const CompareArguments& arguments, const std::vector<VariantRequest>& requests,
-                                       const std::vector<Variant>& variants, const MeasureContext& context,
-                                       std::vector<std::string>& notes) {
-    if (arguments.inset_classes.empty()) return {};
+/// Returns the variant that finds most kinds of light: one with strategies, or the first.
+const Variant& variant_of_insets(const std::vector<Variant>& variants) {
     const Variant* const with_strategies = first_with_strategies(variants);
-    const Variant& variant = with_strategies != nullptr ? *with_strategies : variants.front();
-    const auto request = std::ranges::find(requests, variant.name, &VariantRequest::name);
-    return regions_of_classes(arguments.scene, *request, variant, arguments.inset_classes, context, notes);
+    return with_strategies != nullptr ? *with_strategies : variants.front();
 }
 
 /// Throws SceneError if options that were given would change nothing.
@@ -264,7 +291,7 @@ void require_regions_within(const std::vector<NamedRegion>& regions, const Pixel
 }
 
 /// Returns the seed of the first render. Renders that have a part in their own reference would look better than they
-/// are: seeds go on after those of a reference that another comparison has pooled, unless --seed was given.
+/// are: seeds go on after those of the reference's file, unless --seed was given.
 std::uint32_t first_seed(const CompareArguments& arguments, const std::vector<Variant>& variants,
                          RequestedReference& requested) {
     const std::uint32_t first = variants.front().settings.seed;
@@ -278,8 +305,8 @@ std::uint32_t first_seed(const CompareArguments& arguments, const std::vector<Va
         std::ranges::any_of(arguments.common.given, [](const GivenOption& option) { return option.name == "--seed"; });
     const std::uint32_t after = taken.first + taken.count;
     requested.notes.push_back(
-        is_given ? fmt::format("the reference was pooled from renders with some of the same seeds, so that errors are "
-                               "too small; --seed {} has others",
+        is_given ? fmt::format("the reference was rendered with some of the same seeds, so that errors are not those "
+                               "of independent images; --seed {} has others",
                                after)
                  : fmt::format("seeds begin with {}, after those of the reference", after));
     return is_given ? first : after;
@@ -293,6 +320,9 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const PixelRect& window = variants.front().sampling.window;
     require_regions_within(arguments.regions, window);
     require_effective(arguments, variants);
+    const Variant& of_insets = variant_of_insets(variants);
+    const AovPlan insets = plan_of_classes(
+        arguments.scene, *std::ranges::find(requests, of_insets.name, &VariantRequest::name), arguments.inset_classes);
     RequestedReference requested = requested_reference(arguments, variants, colors);
     std::optional<RenderPage> page;
     if (const auto port = live_port(arguments.live)) page.emplace(*port);
@@ -309,7 +339,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const std::vector<std::filesystem::path> files = prepare_directory(arguments.output, file_names(arguments), inputs);
     ImageStore store(arguments.output, window.width(), window.height(), 3);
     const MeasureContext context{colors, threads, store};
-    const std::vector<NamedRegion> of_classes = class_regions(arguments, requests, variants, context, requested.notes);
+    const std::vector<NamedRegion> of_classes = regions_of_classes(of_insets, insets, context, requested.notes);
     const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
     if (page) page->enter(interrupt_requested() ? "stopped" : "measure");
     const std::size_t rounds = renders.front().seeds.size();
@@ -326,7 +356,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const std::uint32_t reference_seed =
         render_seed(request.first_seed, static_cast<std::size_t>(request.seeds), 0, variants.size());
     const std::optional<Reference> reference =
-        find_reference(arguments, std::move(requested), reference_seed, variants, images, threads, report);
+        find_reference(arguments, std::move(requested), reference_seed, variants, renders, images, threads, report);
     report.reference = reference ? reference->report() : ReferenceReport{.kind = "none", .text = "There is none."};
     if (report.reference.kind == "pooled")
         report.reference.seeds = {request.first_seed, static_cast<std::uint32_t>(rounds * variants.size())};
@@ -341,7 +371,9 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
-    if (const std::string note = unequal_times(report); !note.empty()) report.notes.push_back(note);
+    for (const std::string& note :
+         {reference_noise(report), off_budget(report), unequal_times(report), lost_in_pdf(report)})
+        if (!note.empty()) report.notes.push_back(note);
 
     // What was measured must not be lost with pictures that cannot be made.
     write_text(files[0], to_json(report));
@@ -352,7 +384,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
     add_images(pictures, report, images, reference, maps, view, context);
     const int longest_strategy = arguments.longest_strategy.value_or(kDefaultStrategies);
     if (const Variant* const bdpt = first_with_strategies(variants); bdpt != nullptr && longest_strategy > 0)
-        add_strategies(pictures, report, *bdpt, longest_strategy, view, context, arguments.quiet);
+        add_strategies(pictures, report, *bdpt, renders[static_cast<std::size_t>(bdpt - variants.data())],
+                       longest_strategy, view, context, arguments.quiet);
 
     write_text(files[0], to_json(report));
     write_text(files[1], make_page(report, pictures));
@@ -397,7 +430,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
     by->check(CLI::IsMember(integrator_names()))->excludes(file);
     command
         .add_option("--reference-seconds", arguments.reference_seconds,
-                    "Time of that render (default: ten times --seconds)")
+                    "Time of that render, counted as --seconds is (default: ten times that of the longest variant)")
         ->check(real_range(1e-3, 1e9))
         ->needs(by);
     command

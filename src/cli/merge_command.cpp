@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,7 +37,7 @@ struct MergeArguments {
     std::vector<std::string> parts;
     std::string output;
     std::string command;
-    PixelDepth depth = PixelDepth::Half;
+    std::optional<PixelDepth> depth;  ///< the parts' if there is none
     bool quiet = false;
     bool json = false;
 };
@@ -102,7 +103,8 @@ ExitCode run_merge(const MergeArguments& arguments) {
             log_warning("note: {}: {}", output.string(), *note);
         require_writable(paths.png);
         require_writable(paths.json);
-        if (image.frame.aces_container && arguments.depth == PixelDepth::Float)
+        const PixelDepth depth = arguments.depth.value_or(image.depth);
+        if (image.frame.aces_container && depth == PixelDepth::Float)
             throw UsageError(
                 "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
         resolve_layers(image, state);
@@ -111,7 +113,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
         require_parts_kept(layers);
         image.statistics.libraries = library_versions();
         const std::vector<std::string> earlier =
-            write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
+            write_image_files(paths, image, ColorConfig::from_environment(), depth);
         if (!arguments.quiet) {
             note_exposure(paths, image.statistics);
             note_earlier_files(earlier);
@@ -138,7 +140,8 @@ void add_merge_command(CLI::App& app, Action& action) {
                      "EXR file to write; PNG and JSON go beside it. Or a .partial, to be merged further")
         ->required();
     auto* half = command->add_flag_callback(
-        "--half", [arguments] { arguments->depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
+        "--half", [arguments] { arguments->depth = PixelDepth::Half; },
+        "Write 16-bit floats (default: what the first part was rendered with)");
     command
         ->add_flag_callback(
             "--float", [arguments] { arguments->depth = PixelDepth::Float; }, "Write 32-bit floats")

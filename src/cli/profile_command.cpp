@@ -230,9 +230,10 @@ void note_costly_stamps(ProfileReport& report) {
                             run.integrator, run.threads, 100.0 * run.timing_share));
 }
 
-void note_disagreeing_repetitions(ProfileReport& report) {
+void note_other_work(ProfileReport& report) {
     for (const ProfileRun& run : report.runs)
-        if (const std::string note = disagreement_of_repetitions(run); !note.empty()) report.notes.push_back(note);
+        for (const std::string& note : {busy_machine(run), disagreement_of_repetitions(run)})
+            if (!note.empty()) report.notes.push_back(note);
 }
 
 /// Reads earlier profiles, the oldest first. Throws SceneError for one of other work.
@@ -357,7 +358,7 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     if (measured.interrupted) return interrupt_exit_code();
     report.runs = std::move(measured.runs);
     note_costly_stamps(report);
-    note_disagreeing_repetitions(report);
+    note_other_work(report);
     describe_memory(report, *loaded.world, measured);
     if (baseline) report.against = compare_profiles(*baseline, report, {.tolerance = arguments.tolerance});
     ProfileImages images;

@@ -1,11 +1,14 @@
 #include "cli/variant_options.h"
 
+#include "cli/command_mistakes.h"
 #include "cli/settings_options.h"
+#include "session/usage_error.h"
 
 #include <array>
 #include <utility>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -44,11 +47,16 @@ std::span<const OptionOfRender> options_compare_sets() {
 
 RenderRequest with_options(const RenderRequest& common, const std::string& options) {
     RenderRequest request = common;
-    CLI::App parser;
+    CLI::App parser("", "render");
     // Its --help would be an exception that nobody expects.
     parser.set_help_flag();
     add_settings_options(parser, request.overrides);
-    parser.parse(options, false);
+    try {
+        parser.parse(options, false);
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(
+            fmt::format("in the options of a variant, '{}': {}", options, mistake_in_words(parser, error)));
+    }
     refuse_options(parser, kOptionsForAll);
     refuse_options(parser, kOptionsOfRender);
     request.given = merged(common.given, given_options(std::as_const(parser).get_options()));

@@ -2,7 +2,6 @@
 
 #include "loader/loader.h"
 #include "metrics/pixel_selection.h"
-#include "picture/aov_setup.h"
 #include "render/progressive_render.h"
 #include "session/interrupt.h"
 
@@ -18,20 +17,8 @@ namespace {
 
 constexpr std::uint32_t kClassSamples = 16;
 
-/// The layers of `classes` of a few samples of `variant`, one channel each: luminance.
-std::vector<ImageF> light_of_classes(const std::filesystem::path& scene, const VariantRequest& request,
-                                     const Variant& variant, std::span<const std::string> classes,
-                                     const MeasureContext& context) {
-    SettingsOverrides overrides = request.request.overrides;
-    if (find_frames(scene)) overrides.frame = 0;
-    PreparedScene prepared = prepare_scene(scene, overrides);
-    prepared.scene.settings.aovs.clear();
-    for (const std::string& name : classes)
-        prepared.scene.settings.aovs.push_back({.name = name, .source = name, .is_float = {}});
-    const AovPlan plan = make_aov_plan(prepared.scene, prepared.problems);
-    for (const AovOutput& output : plan.outputs)
-        if (output.kind != AovKind::Layer)
-            throw SceneError({"--insets", {}}, fmt::format("'{}' is no layer of light", output.name));
+/// The layers of `plan` of a few samples of `variant`, one channel each: luminance.
+std::vector<ImageF> light_of_classes(const Variant& variant, const AovPlan& plan, const MeasureContext& context) {
     RenderOptions options = variant.sampling;
     options.aovs = plan.set;
     ProgressiveRender render(*variant.world, *variant.integrator, options, context.threads);
@@ -51,12 +38,28 @@ std::vector<ImageF> light_of_classes(const std::filesystem::path& scene, const V
 
 }  // namespace
 
-std::vector<NamedRegion> regions_of_classes(const std::filesystem::path& scene, const VariantRequest& request,
-                                            const Variant& variant, std::span<const std::string> classes,
-                                            const MeasureContext& context, std::vector<std::string>& notes) {
+AovPlan plan_of_classes(const std::filesystem::path& scene, const VariantRequest& request,
+                        std::span<const std::string> classes) {
+    if (classes.empty()) return {};
+    SettingsOverrides overrides = request.request.overrides;
+    if (find_frames(scene)) overrides.frame = 0;
+    PreparedScene prepared = prepare_scene(scene, overrides);
+    prepared.scene.settings.aovs.clear();
+    for (const std::string& name : classes)
+        prepared.scene.settings.aovs.push_back({.name = name, .source = name, .is_float = {}});
+    AovPlan plan = make_aov_plan(prepared.scene, prepared.problems);
+    for (const AovOutput& output : plan.outputs)
+        if (output.kind != AovKind::Layer)
+            throw SceneError({"--insets", {}}, fmt::format("'{}' is no layer of light", output.name));
+    return plan;
+}
+
+std::vector<NamedRegion> regions_of_classes(const Variant& variant, const AovPlan& plan, const MeasureContext& context,
+                                            std::vector<std::string>& notes) {
+    if (plan.outputs.empty()) return {};
     const PixelRect& window = variant.sampling.window;
     std::vector<NamedRegion> regions;
-    const std::vector<ImageF> layers = light_of_classes(scene, request, variant, classes, context);
+    const std::vector<ImageF> layers = light_of_classes(variant, plan, context);
     for (std::size_t i = 0; i < layers.size(); ++i) {
         ImageF trimmed = layers[i];
         trim(trimmed);
@@ -71,9 +74,10 @@ std::vector<NamedRegion> regions_of_classes(const std::filesystem::path& scene, 
             found = block;
         }
         if (found)
-            regions.push_back({classes[i], *found, false});
+            regions.push_back({plan.outputs[i].name, *found, false});
         else
-            notes.push_back(fmt::format("the image has no light of the class '{}' to look at (--insets)", classes[i]));
+            notes.push_back(
+                fmt::format("the image has no light of the class '{}' to look at (--insets)", plan.outputs[i].name));
     }
     return regions;
 }

@@ -59,6 +59,13 @@ OutputFrame frame_of(const ComparisonReport& report) {
     return frame;
 }
 
+/// Returns what the header says under `name`; empty if that is no text or not there.
+std::string text_of(const ChannelImage& image, const char* name) {
+    const ImageAttribute* const found = image.find(name);
+    const auto* const text = found != nullptr ? std::get_if<std::string>(&found->value) : nullptr;
+    return text != nullptr ? *text : "";
+}
+
 /// `name` as a part of a file's name: letters, digits and what no shell takes apart.
 std::string plain_name(const std::string& name) {
     std::string result;
@@ -68,6 +75,32 @@ std::string plain_name(const std::string& name) {
         result += is_plain ? c : '_';
     }
     return result;
+}
+
+/// True if `path` is an image that another comparison has kept: its name is what its header says, or would be in a file
+/// that says no command (SOURCE_DATE_EPOCH).
+bool is_kept_render(const fs::path& path) {
+    ChannelImage image;
+    try {
+        image = read_channels(path);
+    } catch (const IoError&) {
+        return false;
+    }
+    const std::string command = text_of(image, "etendue:command");
+    const std::string name = plain_name(text_of(image, "etendue:integrator"));
+    const std::string file = path.filename().string();
+    return (command.empty() || command.starts_with("etendue compare ")) && !name.empty() && file.starts_with(name) &&
+           file.ends_with(fmt::format("-seed{}.exr", text_of(image, "etendue:seed")));
+}
+
+/// Removes what `is_kept_render` finds in `directory`.
+void remove_kept_renders(const fs::path& directory) {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+        if (entry.is_regular_file() && entry.path().filename().string().find("-seed") != std::string::npos &&
+            is_kept_render(entry.path()))
+            found.push_back(entry.path());
+    for (const fs::path& file : found) fs::remove(file);
 }
 
 }  // namespace
@@ -92,6 +125,20 @@ void write_data_files(const fs::path& directory, const ComparisonReport& report)
     fs::remove(directory / kPlotsDirectory, ignored);  // if it is empty
 }
 
+std::string lost_in_pdf(const ComparisonReport& report) {
+    std::vector<std::string> names;
+    const auto look_at = [&](const std::string& name) {
+        if (!has_pdf_text(name)) names.push_back(fmt::format("'{}'", name));
+    };
+    look_at(report.scene);
+    for (const VariantReport& variant : report.variants) look_at(variant.name);
+    if (report.metrics.empty() || names.empty()) return "";
+    return fmt::format(
+        "plots in PDF have question marks for characters of {}: their font has Western European ones "
+        "alone, and the plots in SVG have all",
+        fmt::join(names, ", "));
+}
+
 void write_reference(const fs::path& path, const Reference& reference, const ComparisonReport& report,
                      const ColorConfig& colors) {
     OutputFrame frame = frame_of(report);
@@ -106,35 +153,38 @@ void write_reference(const fs::path& path, const Reference& reference, const Com
     ExrDriver(path, colors, PixelDepth::Float).write(frame);
 }
 
-std::optional<PooledOrigin> read_pooled_origin(const fs::path& path) {
+std::optional<ReferenceOrigin> read_reference_origin(const fs::path& path, const PixelRect& window) {
     ChannelImage image;
     try {
         image = read_channels(path);
     } catch (const IoError&) {
         return std::nullopt;
     }
-    const ImageAttribute* const seeds = image.find(kSeedsAttribute);
-    const auto* const text = seeds != nullptr ? std::get_if<std::string>(&seeds->value) : nullptr;
-    if (text == nullptr) return std::nullopt;
-    PooledOrigin origin;
-    std::istringstream(*text) >> origin.seeds.first >> origin.seeds.count;
-    ImageEstimate estimate{ImageF(image.pixels.width, image.pixels.height, 3),
-                           ImageF(image.pixels.width, image.pixels.height, 3)};
+    const std::string seeds = text_of(image, kSeedsAttribute);
+    const std::string seed = text_of(image, "etendue:seed");
+    if (seeds.empty() && seed.empty()) return std::nullopt;
+    ReferenceOrigin origin{.seeds = {.first = 0, .count = 1}, .has_other_renders = !seeds.empty()};
+    std::istringstream text(seeds.empty() ? seed : seeds);
+    text >> origin.seeds.first;
+    if (origin.has_other_renders) text >> origin.seeds.count;
+    if (!text) return std::nullopt;
+    const PixelRect& data = image.data_window;
+    const PixelRect& full = image.display_window;
+    const auto channels = static_cast<std::size_t>(image.pixels.channels);
+    ImageF variance(window.width(), window.height(), 3);
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::string channel(1, "RGB"[c]);
-        const auto place = [&](const std::string& name) {
-            return static_cast<std::size_t>(std::ranges::find(image.channel_names, name) - image.channel_names.begin());
-        };
-        const std::size_t mean = place(channel), noise = place(fmt::format("{}.{}", kNoiseLayer, channel));
-        const auto channels = static_cast<std::size_t>(image.pixels.channels);
-        if (mean >= channels || noise >= channels) return std::nullopt;
-        for (std::size_t i = 0; i < estimate.mean.pixels.size() / 3; ++i) {
-            const float error = image.pixels.pixels[i * channels + noise];
-            estimate.mean.pixels[3 * i + c] = image.pixels.pixels[i * channels + mean];
-            estimate.variance.pixels[3 * i + c] = error * error;
-        }
+        const auto noise = static_cast<std::size_t>(
+            std::ranges::find(image.channel_names, fmt::format("{}.{}", kNoiseLayer, "RGB"[c])) -
+            image.channel_names.begin());
+        if (noise >= channels) return origin;
+        for (int y = 0; y < variance.height; ++y)
+            for (int x = 0; x < variance.width; ++x) {
+                const float error =
+                    image.pixels.pixel(x + window.x0 + full.x0 - data.x0, y + window.y0 + full.y0 - data.y0)[noise];
+                variance.pixel(x, y)[c] = error * error;
+            }
     }
-    origin.noise_rel_mse = relative_variance(estimate);
+    origin.variance = std::move(variance);
     return origin;
 }
 
@@ -148,6 +198,7 @@ std::string render_file_name(const ComparisonReport& report, std::size_t variant
 void write_renders(const fs::path& directory, const ComparisonReport& report, std::span<const FinishedImages> images,
                    const ColorConfig& colors) {
     fs::create_directories(directory);
+    remove_kept_renders(directory);
     for (std::size_t v = 0; v < images.size(); ++v)
         for (std::size_t i = 0; i < images[v].of_seeds.size(); ++i) {
             const VariantReport& variant = report.variants[v];

@@ -26,8 +26,9 @@ namespace {
 /// Share of the pixels that a map of relMSE shows below its last colour: the rest is fireflies.
 constexpr double kMapQuantile = 0.95;
 
-constexpr int kStrategyWidth = 240;  // pixels
-constexpr std::uint32_t kStrategySpp = 8;
+constexpr int kStrategyWidth = 240;          // pixels
+constexpr double kStrategyShare = 0.2;       // of the CPU time of all renders
+constexpr double kLeastStrategySeconds = 1;  // that they may take in any case
 
 void add_error_maps(ReportImages& images, ComparisonReport& report, const ErrorMaps& maps) {
     // One scale for all, so that they can be compared.
@@ -43,10 +44,9 @@ void add_error_maps(ReportImages& images, ComparisonReport& report, const ErrorM
     report.maps["error/relmse"] = {0.0, largest};
 }
 
-/// The variant's image with fewer pixels.
-RenderOptions small_options(const Variant& variant) {
+/// The variant's image with `scale` times as many pixels a side.
+RenderOptions small_options(const Variant& variant, double scale, std::uint32_t spp) {
     RenderOptions options = variant.sampling;
-    const double scale = std::min(1.0, static_cast<double>(kStrategyWidth) / options.window.width());
     const auto scaled = [scale](int pixels) { return std::max(1, static_cast<int>(pixels * scale)); };
     const auto corner = [scale](int pixels) { return static_cast<int>(std::floor(pixels * scale)); };
     const PixelRect& window = variant.sampling.window;
@@ -54,9 +54,32 @@ RenderOptions small_options(const Variant& variant) {
     options.full_height = scaled(options.full_height);
     options.window =
         moved_to({0, 0, scaled(window.width()), scaled(window.height())}, corner(window.x0), corner(window.y0));
-    options.spp = kStrategySpp;
+    options.spp = spp;
     options.time_limit_seconds = 0.0;
     return options;
+}
+
+/// Returns the CPU seconds that the images of all strategies may take together.
+double strategy_seconds(const ComparisonReport& report) {
+    double all = 0.0;
+    for (const VariantReport& variant : report.variants)
+        for (const double seconds : variant.cpu_seconds.values) all += seconds;
+    return std::max(kLeastStrategySeconds, kStrategyShare * all);
+}
+
+/// Returns the plan of each of `images` strategies, as if it took as long as the variant's own image.
+StrategyPlan plan_strategies(const ComparisonReport& report, const Variant& variant, const VariantRenders& renders,
+                             std::size_t images) {
+    const std::vector<Snapshot>& kept = renders.seeds.front().checkpoints;
+    const double first = kept.front().cpu_seconds / kept.front().spp;
+    const double later =
+        kept.size() > 1 ? (kept.back().cpu_seconds - kept.front().cpu_seconds) / (kept.back().spp - kept.front().spp)
+                        : first;
+    const double scale = std::min(1.0, static_cast<double>(kStrategyWidth) / variant.sampling.window.width());
+    StrategyPlan plan = fit_strategies(strategy_seconds(report) / static_cast<double>(images), scale * scale * first,
+                                       scale * scale * later);
+    plan.scale *= scale;
+    return plan;
 }
 
 ImageF luminances(const ImageF& rgba, const Rgb& weights) {
@@ -116,6 +139,13 @@ void describe_strategies(StrategiesReport& report, std::span<const StrategyImage
 
 }  // namespace
 
+StrategyPlan fit_strategies(double seconds, double first_sample, double sample) {
+    constexpr double kMostSamples = 8.0;
+    if (first_sample > seconds) return {.scale = std::max(0.25, std::sqrt(seconds / first_sample))};
+    const double more = sample > 0.0 ? (seconds - first_sample) / sample : kMostSamples;
+    return {.spp = static_cast<std::uint32_t>(std::min(kMostSamples, 1.0 + std::floor(more)))};
+}
+
 void add_images(ReportImages& images, ComparisonReport& report, std::span<const FinishedImages> finished,
                 const std::optional<Reference>& reference, const ErrorMaps& maps, const DisplayView& view,
                 const MeasureContext& context) {
@@ -143,9 +173,9 @@ void add_images(ReportImages& images, ComparisonReport& report, std::span<const 
         }
 }
 
-bool add_strategies(ReportImages& images, ComparisonReport& report, const Variant& variant, int longest,
-                    const DisplayView& view, const MeasureContext& context, bool quiet) {
-    const RenderOptions options = small_options(variant);
+bool add_strategies(ReportImages& images, ComparisonReport& report, const Variant& variant,
+                    const VariantRenders& renders, int longest, const DisplayView& view, const MeasureContext& context,
+                    bool quiet) {
     IntegratorSettings integrator = variant.settings.integrator;
     integrator.strategy.reset();
     longest = std::min(longest, integrator.lengths.max_depth);
@@ -157,6 +187,8 @@ bool add_strategies(ReportImages& images, ComparisonReport& report, const Varian
                         longest, integrator.lengths.min_depth));
         return false;
     }
+    const StrategyPlan plan = plan_strategies(report, variant, renders, 2 * wanted.size());
+    const RenderOptions options = small_options(variant, plan.scale, plan.spp);
     const Rgb weights = context.colors.luminance_weights(report.working_space);
     std::array<std::vector<StrategyImage>, 2> strategies;  // with weights and without
     for (const bool weighted : {true, false}) {

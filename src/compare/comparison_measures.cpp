@@ -6,7 +6,9 @@
 #include "metrics/flip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -19,6 +21,8 @@ namespace {
 constexpr const char* kRelMse = "relmse";
 constexpr const char* kTrimmed = "relmse-trimmed";
 constexpr const char* kFlip = "flip";
+/// The errors that the reference's noise, where it is known, is taken off.
+constexpr std::array kWithoutNoise{kRelMse, kTrimmed, "mse"};
 constexpr std::size_t kFoundRegions = 3;
 
 std::string key_of(ErrorMetric metric) {
@@ -84,14 +88,12 @@ VariantReport describe(const Variant& variant, const VariantRenders& renders, co
         report.dropped_samples += seed.counters.dropped;
     }
     report.rays = static_cast<std::uint64_t>(std::llround(rays / count));
-    report.rays_per_second = rays / count / report.seconds.mean();
     report.samples_per_cpu_second = samples / count / report.cpu_seconds.mean();
     for (const ImageF& image : images.of_seeds) {
         const std::array<double, 3> mean = mean_color(image, whole(image));
         for (std::size_t c = 0; c < 3; ++c) report.mean[c] += mean[c] / count;
     }
     report.variance = images.relative_variance;
-    // Without any variance there is nothing to tell it by.
     return report;
 }
 
@@ -104,8 +106,10 @@ void measure_convergence(VariantReport& report, const VariantRenders& renders, c
             const Snapshot& checkpoint = renders.seeds[seed].checkpoints[i];
             step.seconds.values.push_back(checkpoint.seconds);
             step.cpu_seconds.values.push_back(checkpoint.cpu_seconds);
-            add(step.errors, compute_error_metrics(store.get(checkpoint.image), reference.of_round(seed)));
+            add(step.errors, compute_error_metrics(store.get(checkpoint.image), reference.of_round(seed), {},
+                                                   reference.variance_of_round(seed)));
         }
+        if (reference.report().noise_rel_mse > 0.0) drop_drowned(step.errors);
         report.convergence.push_back(std::move(step));
     }
     report.errors = report.convergence.back().errors;
@@ -164,8 +168,13 @@ void fill_ratios(PairReport& pair, const ComparisonReport& report, const Variant
     pair.ratios["rays_per_second"] = {.ratio = a.rays_per_second / b.rays_per_second};
     pair.ratios["efficiency"] = {.ratio = a.efficiency / b.efficiency};
     if (a.errors.empty()) return;
-    for (const auto& [metric, values] : a.errors)
-        pair.ratios[metric] = ratio_interval(values.log_mean(), b.errors.at(metric).log_mean());
+    for (const auto& [metric, values] : a.errors) {
+        RatioInterval& ratio = pair.ratios[metric];
+        ratio = ratio_interval(values.log_mean(), b.errors.at(metric).log_mean());
+        // The noise of the reference draws the ratio towards 1, by more than the interval knows.
+        if (report.reference.noise_rel_mse > 0.0 && std::ranges::find(kWithoutNoise, metric) == kWithoutNoise.end())
+            ratio = {.ratio = ratio.ratio};
+    }
     // All renders of a variant take the same samples: what their times scatter by is the machine's.
     const double times = report.time_of(a).mean() / report.time_of(b).mean();
     for (const char* metric : {kRelMse, kTrimmed}) {
@@ -195,8 +204,10 @@ RegionReport measure_region(const NamedRegion& region, const ComparisonReport& r
             const ImageF& expected = reference->of_round(seed);
             variant.mean_error.values.push_back(
                 variant.luminance.values.back() / luminance(mean_color(expected, pixels), weights) - 1.0);
-            add(variant.errors, compute_error_metrics(image, expected, {.region = pixels}));
+            add(variant.errors,
+                compute_error_metrics(image, expected, {.region = pixels}, reference->variance_of_round(seed)));
         }
+        if (reference && reference->report().noise_rel_mse > 0.0) drop_drowned(variant.errors);
         if (reference)
             variant.rel_mse_time = variant.errors.at(kRelMse).mean() * report.time_of(report.variants[v]).mean();
         result.variants.push_back(std::move(variant));
@@ -238,6 +249,55 @@ std::string unequal_times(const ComparisonReport& report) {
         "relMSE x time, or give more --seconds",
         least->name, time(*least), report.by_wall ? "time on the clock" : "CPU time", most->name, time(*most),
         100.0 * (ratio - 1.0));
+}
+
+void drop_drowned(ErrorsByMetric& errors) {
+    for (const char* metric : kWithoutNoise)
+        if (SeedValues& measured = errors.at(metric); measured.mean() <= 0.0)
+            std::ranges::fill(measured.values, kUnknown);
+}
+
+std::string drowned_errors(const ComparisonReport& report) {
+    std::vector<std::string> names;
+    for (const VariantReport& variant : report.variants)
+        if (std::ranges::any_of(kWithoutNoise, [&](const char* metric) {
+                const auto errors = variant.errors.find(metric);
+                return errors != variant.errors.end() && std::isnan(errors->second.mean());
+            }))
+            names.push_back(fmt::format("'{}'", variant.name));
+    if (!(report.reference.noise_rel_mse > 0.0) || names.empty()) return "";
+    return fmt::format(
+        "the reference's noise, a relMSE of {:.3g}, hides errors of {}, which are not known: a reference with less "
+        "noise, or more --seeds, would show them",
+        report.reference.noise_rel_mse, fmt::join(names, ", "));
+}
+
+std::string reference_noise(const ComparisonReport& report) {
+    constexpr double kMuch = 0.1;
+    const double noise = report.reference.noise_rel_mse;
+    double least = std::numeric_limits<double>::infinity();
+    for (const VariantReport& variant : report.variants)
+        if (const auto errors = variant.errors.find(kRelMse); errors != variant.errors.end())
+            least = std::fmin(least, errors->second.mean());
+    // A pooled one has that much in any case.
+    if (report.reference.kind == "pooled" || !std::isfinite(least) || !(noise > kMuch * least)) return "";
+    return fmt::format(
+        "the reference's own noise, a relMSE of {:.3g}, is {:.0f}% of the least relMSE: it is taken off relMSE and "
+        "MSE, "
+        "and the other errors are so much too large; a longer reference has less",
+        noise, 100.0 * noise / least);
+}
+
+std::string off_budget(const ComparisonReport& report) {
+    constexpr double kMostOff = 0.1;
+    std::vector<std::string> off;
+    if (!report.seconds) return "";
+    for (const VariantReport& variant : report.variants)
+        if (const double time = report.time_of(variant).mean(); std::abs(time / *report.seconds - 1.0) > kMostOff)
+            off.push_back(fmt::format("'{}' {:.3g} s", variant.name, time));
+    if (off.empty()) return "";
+    return fmt::format("in place of {:.3g} s of {}, renders took in the mean: {}; more --seconds come nearer to it",
+                       *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
 }
 
 ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
@@ -282,12 +342,14 @@ void measure(ComparisonReport& report, std::span<const Variant> variants, std::s
              std::span<const NamedRegion> regions, const MeasureContext& context) {
     for (std::size_t v = 0; v < variants.size(); ++v) {
         VariantReport& variant = report.variants.emplace_back(describe(variants[v], renders[v], images[v]));
+        variant.rays_per_second = static_cast<double>(variant.rays) / report.time_of(variant).mean();
         // Without any variance there is nothing to tell it by.
         if (variant.variance > 0.0) variant.efficiency = 1.0 / (variant.variance * report.time_of(variant).mean());
         if (!reference) continue;
         measure_convergence(variant, renders[v], *reference, context.store);
         fit_slopes(variant);
     }
+    if (const std::string note = drowned_errors(report); !note.empty()) report.notes.push_back(note);
     if (reference) {
         for (const ErrorMetric metric : kErrorMetrics)
             report.metrics.push_back({key_of(metric), title_of(metric), formula_of(metric)});

@@ -14,14 +14,20 @@ namespace etendue {
 
 namespace {
 
-/// Adds `weight` times the mean of all images but the one of round `left_out`.
-void add_mean(ImageF& sum, std::span<const ImageF> images, std::size_t left_out, double weight) {
-    const double scale = weight / static_cast<double>(images.size() - 1);
-    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
-        double value = 0.0;
-        for (std::size_t round = 0; round < images.size(); ++round)
-            if (round != left_out) value += static_cast<double>(images[round].pixels[i]);
-        sum.pixels[i] += static_cast<float>(scale * value);
+/// Adds `weight` times the mean of all images, three or more, but the one of round `left_out`, and its variance.
+void add_mean(ImageEstimate& sum, std::span<const ImageF> images, std::size_t left_out, double weight) {
+    const auto count = static_cast<double>(images.size() - 1);
+    for (std::size_t i = 0; i < sum.mean.pixels.size(); ++i) {
+        const auto sum_of = [&](const auto& term) {
+            double all = 0.0;
+            for (std::size_t round = 0; round < images.size(); ++round)
+                if (round != left_out) all += term(static_cast<double>(images[round].pixels[i]));
+            return all;
+        };
+        const double mean = sum_of([](double value) { return value; }) / count;
+        const double squares = sum_of([mean](double value) { return (value - mean) * (value - mean); });
+        sum.mean.pixels[i] += static_cast<float>(weight * mean);
+        sum.variance.pixels[i] += static_cast<float>(weight * weight * squares / (count * (count - 1.0)));
     }
 }
 
@@ -35,11 +41,28 @@ std::string weights_text(const std::map<std::string, double>& weights) {
 /// Places of variants.
 using Members = std::vector<std::size_t>;
 
-/// Variants that find all of the light they show, by which light that is; most of one kind first.
-std::vector<Members> groups_of_light(std::span<const Variant> variants) {
+std::string names_text(std::span<const Variant> variants, const Members& members) {
+    std::string text;
+    for (std::size_t i = 0; i < members.size(); ++i)
+        text += fmt::format("{}'{}'",
+                            i == 0                   ? ""
+                            : i + 1 < members.size() ? ", "
+                                                     : " and of ",
+                            variants[members[i]].name);
+    return text;
+}
+
+/// Variants that find all of the light they show, by which light that is; most of one kind first. Those whose images
+/// cannot be tested are `untested` and in no group.
+std::vector<Members> groups_of_light(std::span<const Variant> variants, std::span<const FinishedImages> images,
+                                     Members& untested) {
     std::vector<Members> groups;
     for (std::size_t v = 0; v < variants.size(); ++v) {
         if (!variants[v].cannot_find.empty()) continue;
+        if (images[v].of_seeds.size() > 1 && !images[v].block_size) {
+            untested.push_back(v);
+            continue;
+        }
         const auto group = std::ranges::find_if(groups, [&](const Members& members) {
             return different_light(variants[members.front()], variants[v]).empty();
         });
@@ -54,8 +77,13 @@ std::vector<Members> groups_of_light(std::span<const Variant> variants) {
 
 /// Why the first of `groups` cannot be pooled; empty if it can.
 std::string why_not_pooled(std::span<const Variant> variants, const std::vector<Members>& groups,
-                           std::span<const PairReport> pairs, std::size_t rounds) {
+                           const Members& untested, std::span<const PairReport> pairs, std::size_t rounds) {
     if (variants.size() < 2) return "one variant alone cannot be pooled";
+    if (!untested.empty() && (groups.empty() || groups.front().size() < 2))
+        return fmt::format(
+            "so few pixels make up the image of {} that nothing can be said about whether it agrees with another: give "
+            "it more time",
+            names_text(variants, untested));
     if (groups.empty() || groups.front().size() < 2)
         return "no two of the variants show the same light and find all of it, and none can be its own reference";
     const Members& members = groups.front();
@@ -67,11 +95,6 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
     };
     for (const PairReport& pair : pairs) {
         if (!pair.comparable || !is_member(pair.a) || !is_member(pair.b)) continue;
-        if (!pair.agreement)
-            return fmt::format(
-                "so few pixels make up the image of '{}' or of '{}' that nothing can be said about their agreement: "
-                "give them more time",
-                pair.a, pair.b);
         if (!pair.agreement->agree())
             return fmt::format("'{}' and '{}' do not make the same image, so none was pooled", pair.a, pair.b);
     }
@@ -107,25 +130,28 @@ std::string made_alone_by(const std::string& integrator, const std::string& meas
 }  // namespace
 
 Reference::Reference(ImageF image, ReferenceReport report) : report_(std::move(report)) {
-    images_.push_back(std::move(image));
+    images_.push_back({std::move(image), {}});
 }
 
-Reference::Reference(std::vector<ImageF> of_rounds, ImageF variance, ReferenceReport report)
+Reference::Reference(ImageEstimate estimate, ReferenceReport report)
+    : variance_(estimate.variance), report_(std::move(report)) {
+    report_.noise_rel_mse = relative_variance(estimate);
+    images_.push_back(std::move(estimate));
+}
+
+Reference::Reference(std::vector<ImageEstimate> of_rounds, ImageF variance, ReferenceReport report)
     : images_(std::move(of_rounds)), variance_(std::move(variance)), report_(std::move(report)) {}
 
 ImageF Reference::whole() const {
     // Each render is in the images of all rounds but its own.
-    ImageF mean(images_.front().width, images_.front().height, images_.front().channels);
+    const ImageF& like = images_.front().mean;
+    ImageF mean(like.width, like.height, like.channels);
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
         double sum = 0.0;
-        for (const ImageF& image : images_) sum += static_cast<double>(image.pixels[i]);
+        for (const ImageEstimate& image : images_) sum += static_cast<double>(image.mean.pixels[i]);
         mean.pixels[i] = static_cast<float>(sum / static_cast<double>(images_.size()));
     }
     return mean;
-}
-
-const ImageF& Reference::of_round(std::size_t round) const {
-    return images_.size() == 1 ? images_.front() : images_[round];
 }
 
 std::vector<FinishedImages> finished_images(std::span<const VariantRenders> renders, const ImageStore& store) {
@@ -189,8 +215,9 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
 std::optional<Reference> pool_reference(std::span<const Variant> variants, std::span<const FinishedImages> images,
                                         std::span<const PairReport> pairs, std::vector<std::string>& notes) {
     const std::size_t rounds = images.front().of_seeds.size();
-    const std::vector<Members> groups = groups_of_light(variants);
-    if (const std::string why_not = why_not_pooled(variants, groups, pairs, rounds); !why_not.empty()) {
+    Members untested;
+    const std::vector<Members> groups = groups_of_light(variants, images, untested);
+    if (const std::string why_not = why_not_pooled(variants, groups, untested, pairs, rounds); !why_not.empty()) {
         notes.push_back(fmt::format(
             "there is no reference, so no errors are given: {}; --reference or --reference-integrator give one",
             why_not));
@@ -202,8 +229,9 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
     const std::vector<double> weights = pooling_weights(variances);
     ReferenceReport report{.kind = "pooled", .noise_rel_mse = 0.0};
     const ImageF& like = images.front().of_seeds.front();
-    std::vector<ImageF> of_rounds(rounds, ImageF(like.width, like.height, like.channels));
-    ImageF variance(like.width, like.height, like.channels);
+    const ImageF black(like.width, like.height, like.channels);
+    std::vector<ImageEstimate> of_rounds(rounds, {black, black});
+    ImageF variance = black;
     for (std::size_t i = 0; i < members.size(); ++i) {
         const FinishedImages& member = images[members[i]];
         report.weights[variants[members[i]].name] = weights[i];
@@ -219,6 +247,12 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
         "renders of other rounds, weighted by one over the variants' mean relative variance ({}).",
         weights_text(report.weights));
 
+    if (!untested.empty())
+        notes.push_back(
+            fmt::format("the reference has no part of {}: so few pixels make up the image that nothing can be said "
+                        "about whether it "
+                        "agrees with the others, which its errors are against",
+                        names_text(variants, untested)));
     const Variant& first = variants[members.front()];
     const std::string& integrator = first.settings.integrator.type;
     if (std::ranges::all_of(members, [&](std::size_t v) { return variants[v].settings.integrator.type == integrator; }))

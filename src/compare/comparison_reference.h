@@ -15,14 +15,21 @@ namespace etendue {
 /// Holds the image or images that the images of a comparison are compared with.
 class Reference {
   public:
-    /// Holds one image that has nothing to do with those that are measured.
+    /// Holds one image that has nothing to do with those that are measured, and whose noise is not known.
     Reference(ImageF image, ReferenceReport report);
-    /// Holds a pooled reference: for every round of renders an image that the round had no part in, and the variance of
-    /// each value of their mean.
-    Reference(std::vector<ImageF> of_rounds, ImageF variance, ReferenceReport report);
+    /// Holds one image that has nothing to do with those that are measured, and the variance of each of its values, by
+    /// which the report's noise is set.
+    Reference(ImageEstimate estimate, ReferenceReport report);
+    /// Holds a pooled reference: for every round of renders an image that the round had no part in, with the variance
+    /// of each of its values, and the variance of each value of their mean.
+    Reference(std::vector<ImageEstimate> of_rounds, ImageF variance, ReferenceReport report);
 
     /// Returns the reference for the render with number `round` of every variant.
-    [[nodiscard]] const ImageF& of_round(std::size_t round) const;
+    [[nodiscard]] const ImageF& of_round(std::size_t round) const { return estimate_of(round).mean; }
+    /// Returns the variance of each value of `of_round`; empty if it is not known.
+    [[nodiscard]] std::span<const float> variance_of_round(std::size_t round) const {
+        return estimate_of(round).variance.pixels;
+    }
     /// Returns the reference of all rounds together.
     [[nodiscard]] ImageF whole() const;
     /// Returns the variance of each value of `whole`; null if it is not known.
@@ -30,7 +37,11 @@ class Reference {
     [[nodiscard]] const ReferenceReport& report() const { return report_; }
 
   private:
-    std::vector<ImageF> images_;
+    [[nodiscard]] const ImageEstimate& estimate_of(std::size_t round) const {
+        return images_.size() == 1 ? images_.front() : images_[round];
+    }
+
+    std::vector<ImageEstimate> images_;
     std::optional<ImageF> variance_;
     ReferenceReport report_;
 };
@@ -56,9 +67,9 @@ struct FinishedImages {
 
 /// Pools a reference: the mean of all renders of the variants that show the same light and find all of it, of all
 /// rounds but one each time, weighted by one over their mean relative variance, or those without any alike and the
-/// others not at all. If there are several kinds of light, the one that most variants show. None if fewer than two
-/// variants, or fewer than three rounds, are there to be pooled, or if those variants disagree or could not be tested.
-/// `notes` gets what is to be said of the reference.
+/// others not at all. Variants whose images cannot be tested have no part in it. If there are several kinds of light,
+/// the one that most variants show. None if fewer than two variants, or fewer than three rounds, are there to be
+/// pooled, or if those variants disagree. `notes` gets what is to be said of the reference.
 [[nodiscard]] std::optional<Reference> pool_reference(std::span<const Variant> variants,
                                                       std::span<const FinishedImages> images,
                                                       std::span<const PairReport> pairs,

@@ -4,7 +4,6 @@
 #include "film/median_of_means.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
-#include "report/profile_figures.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
 
@@ -40,10 +39,6 @@ ImageF rgb_of(const Film& film, const AovSet* aovs) {
     return image;
 }
 
-/// Renders that tell before all others how long a sample takes, of each variant, and what share of the time they take.
-constexpr int kCalibrations = 3;
-constexpr double kCalibrationShare = 0.1;
-
 /// A render whose time is counted while it renders only.
 class TimedRender {
   public:
@@ -64,10 +59,17 @@ class TimedRender {
     /// One more pass, up to `last` samples. False if the time is spent, the samples are taken, or it is interrupted.
     bool advance(std::uint32_t last) {
         const std::uint32_t most = std::min(last, budget_.spp.value_or(kMostSamples));
-        if (spp() >= most || (budget_.seconds && time() >= *budget_.seconds && spp() > 0)) return false;
-        std::uint32_t count = pass_size(spp(), most);
-        if (budget_.seconds) count = fit_pass(count, spp(), time(), *budget_.seconds);
+        const std::uint32_t before = spp();
+        const double begin = time();
+        if (before >= most) return false;
+        std::uint32_t count = pass_size(before, most);
+        if (budget_.seconds && before > 0) {
+            count = fit_samples(count, *budget_.seconds - begin, sample_seconds_);
+            if (count == 0) return false;
+        }
         const bool done = render_.add_samples(count, [] { return interrupt_requested().load(); });
+        // By the last pass alone: the first samples take what is made once, such as tables, besides.
+        if (spp() > before) sample_seconds_ = (time() - begin) / (spp() - before);
         const double fraction = budget_.seconds ? time() / *budget_.seconds : double(spp()) / double(*budget_.spp);
         // Written so that no fraction at all, as of no time, is 1.
         const RenderProgress progress{.fraction = fraction < 1.0 ? fraction : 1.0,
@@ -121,6 +123,7 @@ class TimedRender {
     RenderBudget budget_;
     std::uint64_t area_;
     std::shared_ptr<const AovSet> aovs_;
+    double sample_seconds_ = 0.0;  ///< time of a sample of every pixel in the last pass
     ProgressiveRender render_;
     ProgressDisplay display_;
 };
@@ -136,28 +139,15 @@ bool render_in_steps(TimedRender& render, const std::function<void()>& keep) {
     return !interrupt_requested();
 }
 
-/// Returns how many samples each variant takes in the time of the budget; nothing if it is interrupted. Passes end
-/// where they do in the renders that follow.
-std::optional<std::vector<std::uint32_t>> calibrated_samples(std::span<const Variant> variants,
-                                                             const RendersRequest& request, const ThreadPool& threads) {
-    const double wanted = *request.budget.seconds;
-    RenderBudget budget = request.budget;
-    budget.seconds = kCalibrationShare * wanted;
-    std::vector<std::vector<double>> samples_per_second(variants.size());
-    for (int round = 0; round < kCalibrations; ++round)
-        for (std::size_t v = 0; v < variants.size(); ++v) {
-            TimedRender render(variants[v], request.first_seed, threads, budget,
-                               fmt::format("{} calibration {}/{}", variants[v].name, round + 1, kCalibrations),
-                               request.quiet, request.watcher);
-            if (!render_in_steps(render, [] {})) return std::nullopt;
-            samples_per_second[v].push_back(render.spp() / render.time());
-        }
-    std::vector<std::uint32_t> samples;
-    samples.reserve(variants.size());
-    for (std::vector<double>& of_variant : samples_per_second)
-        samples.push_back(static_cast<std::uint32_t>(
-            std::clamp(std::round(wanted * median(of_variant)), 1.0, static_cast<double>(kMostSamples))));
-    return samples;
+/// Renders a sample of every variant, so that none of those whose time is counted is the first to read what all use;
+/// returns false if it is interrupted.
+bool warm_up(std::span<const Variant> variants, const RendersRequest& request, const ThreadPool& threads) {
+    for (const Variant& variant : variants) {
+        TimedRender render(variant, request.first_seed, threads, {.spp = 1}, variant.name + " warm-up", request.quiet,
+                           request.watcher);
+        if (!render_in_steps(render, [] {})) return false;
+    }
+    return true;
 }
 
 /// Renders and keeps the images on the way; returns false if it is interrupted.
@@ -173,6 +163,12 @@ bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
 
 }  // namespace
 
+std::uint32_t fit_samples(std::uint32_t wanted, double seconds, double sample_seconds) {
+    if (seconds <= 0.0) return 0;
+    const double fitting = std::round(seconds / sample_seconds);
+    return fitting < wanted ? static_cast<std::uint32_t>(fitting) : wanted;
+}
+
 std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant, std::size_t variants) {
     return first + static_cast<std::uint32_t>(render * variants + variant);
 }
@@ -180,36 +176,44 @@ std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t v
 std::vector<VariantRenders> render_variants(std::span<const Variant> variants, const RendersRequest& request,
                                             ImageStore& store, const ThreadPool& threads) {
     std::vector<VariantRenders> renders(variants.size());
-    std::vector<std::uint32_t> samples(variants.size(), request.budget.spp.value_or(0));
-    if (request.budget.seconds) {
-        auto calibrated = calibrated_samples(variants, request, threads);
-        if (!calibrated) return renders;
-        samples = std::move(*calibrated);
-    }
+    // The first render of a variant spends the time, and the others take as many samples.
+    std::vector<RenderBudget> budgets(variants.size(), request.budget);
+    if (request.budget.seconds && !warm_up(variants, request, threads)) return renders;
     for (int seed = 0; seed < request.seeds; ++seed)
         for (std::size_t v = 0; v < variants.size(); ++v) {
             SeedRender result{.seed =
                                   render_seed(request.first_seed, static_cast<std::size_t>(seed), v, variants.size())};
-            TimedRender render(variants[v], result.seed, threads, {.spp = samples[v]},
+            TimedRender render(variants[v], result.seed, threads, budgets[v],
                                fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds), request.quiet,
                                request.watcher);
             if (!keep_images(render, store, result)) {
                 for (VariantRenders& of_variant : renders) of_variant.seeds.resize(static_cast<std::size_t>(seed));
                 return renders;
             }
+            budgets[v] = {.spp = result.checkpoints.back().spp};
             renders[v].seeds.push_back(std::move(result));
         }
     return renders;
 }
 
-std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
-                                       const ThreadPool& threads, bool quiet) {
-    TimedRender render(variant, seed, threads, {.seconds = seconds, .by_wall = true}, "reference by " + variant.name,
-                       quiet);
-    while (render.advance(kMostSamples)) {
+std::optional<ReferenceRenders> render_reference(const Variant& variant, const RenderBudget& budget,
+                                                 std::uint32_t first_seed, const ThreadPool& threads, bool quiet) {
+    ReferenceRenders result;
+    RenderBudget of_one = budget;
+    if (of_one.seconds) *of_one.seconds /= kReferenceRenders;
+    for (std::uint32_t i = 0; i < kReferenceRenders; ++i) {
+        TimedRender render(variant, first_seed + i, threads, of_one,
+                           fmt::format("reference by {} {}/{}", variant.name, i + 1, kReferenceRenders), quiet);
+        while (render.advance(kMostSamples)) {
+        }
+        if (interrupt_requested()) return std::nullopt;
+        result.images.push_back(render.image());
+        result.spp = render.spp();
+        result.seconds += render.seconds();
+        result.cpu_seconds += render.cpu_seconds();
+        of_one = {.spp = render.spp()};
     }
-    if (interrupt_requested()) return std::nullopt;
-    return render.image();
+    return result;
 }
 
 }  // namespace etendue

@@ -54,17 +54,33 @@ struct RendersRequest {
 [[nodiscard]] std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant,
                                         std::size_t variants);
 
+/// Returns how many of the `wanted` samples, each of which takes `sample_seconds`, come nearest to taking `seconds`.
+[[nodiscard]] std::uint32_t fit_samples(std::uint32_t wanted, double seconds, double sample_seconds);
+
 /// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what
 /// else the machine does falls on all alike. All renders of a variant take as many samples; if times are equal, as many
-/// as take that time by the median of several short renders before, in turns as well. Images are kept after 1, 2, 3, 4,
+/// as its first one takes in that time, before which each variant renders one sample. Images are kept after 1, 2, 3, 4,
 /// 6, 8, ... samples, a factor of sqrt(2) apart. Once an interrupt is requested, the renders are returned that all
 /// variants have.
 [[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
                                                           const RendersRequest& request, ImageStore& store,
                                                           const ThreadPool& threads);
 
-/// One image of `variant`, R, G and B, with a seed of its own; nothing if it is interrupted.
-[[nodiscard]] std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
-                                                     const ThreadPool& threads, bool quiet);
+/// Holds renders of as many samples that are a reference together, each with a seed of its own.
+struct ReferenceRenders {
+    std::vector<ImageF> images{};  ///< R, G and B
+    std::uint32_t spp = 0;         ///< samples of each
+    double seconds = 0.0;          ///< seconds of all
+    double cpu_seconds = 0.0;
+};
+
+/// The renders of a reference: a few, so that their differences tell its noise.
+inline constexpr std::uint32_t kReferenceRenders = 4;
+
+/// Renders `variant` with seeds from `first_seed` on; the seconds of `budget` are for all renders. Returns nothing if
+/// it is interrupted.
+[[nodiscard]] std::optional<ReferenceRenders> render_reference(const Variant& variant, const RenderBudget& budget,
+                                                               std::uint32_t first_seed, const ThreadPool& threads,
+                                                               bool quiet);
 
 }  // namespace etendue

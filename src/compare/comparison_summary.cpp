@@ -17,7 +17,8 @@ void print(const VariantReport& variant) {
     std::string line = fmt::format("{}: {} spp in {:.3g} s, {:.3g} s of CPU time", variant.name, variant.spp,
                                    variant.seconds.mean(), variant.cpu_seconds.mean());
     for (const auto& [metric, title] : {std::pair{"relmse", "relMSE"}, std::pair{"relmse-trimmed", "trimmed"}})
-        if (const auto error = variant.errors.find(metric); error != variant.errors.end())
+        if (const auto error = variant.errors.find(metric);
+            error != variant.errors.end() && !std::isnan(error->second.mean()))
             line += fmt::format(", {} {:.3g}", title, error->second.mean());
     log_info("{}, {:.2f} Msamples per CPU s", line, variant.samples_per_cpu_second * 1e-6);
 }

@@ -25,6 +25,7 @@ std::string light_text(SceneDesc scene) {
     scene.settings.integrator = {};
     scene.settings.spp = 1;
     scene.settings.seed = 0;
+    scene.settings.sampler = {};
     scene.settings.time_limit = 0.0;
     scene.settings.relative_error = 0.0;
     scene.settings.clamp_indirect = 0.0f;

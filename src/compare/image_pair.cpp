@@ -155,6 +155,7 @@ SceneLinearImage read_scene_linear(const fs::path& path, int full_width, int ful
             throw SceneError(where, fmt::format("it is in '{}', which is no linear space of the OpenColorIO config",
                                                 file.color_space));
         convert(image.pixels, colors.matrix(file.color_space, working_space));
+        image.is_converted = true;
     }
     if (const NotFinite faults = find_not_finite(image.pixels); faults.count() > 0)
         throw SceneError(

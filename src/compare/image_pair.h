@@ -47,6 +47,7 @@ struct ImagePair {
 struct SceneLinearImage {
     ImageF pixels;
     std::vector<std::string> warnings;  ///< what was assumed, one sentence each
+    bool is_converted = false;          ///< the file is in another colour space
 };
 
 /// R, G and B of the pixels `window` of the scene-linear file `path`, whose whole image has `full_width` times

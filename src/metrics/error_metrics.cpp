@@ -29,8 +29,8 @@ double trimmed_mean(std::vector<double>& terms, double share) {
 double squared_term(double v, double r) {
     return (v - r) * (v - r);
 }
-double relative_term(double v, double r) {
-    return squared_term(v, r) / (r * r + kMetricEpsilon);
+double relative(double squared, double r) {
+    return squared / (r * r + kMetricEpsilon);
 }
 double absolute_term(double v, double r) {
     return std::abs(v - r);
@@ -51,7 +51,7 @@ double term_of(ErrorMetric metric, double v, double r) {
         case ErrorMetric::RelMseTrimmed:
             break;
     }
-    return relative_term(v, r);
+    return relative(squared_term(v, r), r);
 }
 
 }  // namespace
@@ -112,8 +112,11 @@ std::string ErrorMetrics::str() const {
     return text;
 }
 
-ErrorMetrics compute_error_metrics(const ImageF& image, const ImageF& reference, const PixelSelection& selection) {
+ErrorMetrics compute_error_metrics(const ImageF& image, const ImageF& reference, const PixelSelection& selection,
+                                   std::span<const float> variance) {
     require_same_shape(image, reference, "image and reference");
+    if (!variance.empty() && variance.size() != reference.pixels.size())
+        throw std::invalid_argument("the variance is not one of each value of the reference");
     ErrorMetrics sums;
     std::vector<double> relative_terms;
     relative_terms.reserve(image.pixels.size());
@@ -122,10 +125,11 @@ ErrorMetrics compute_error_metrics(const ImageF& image, const ImageF& reference,
         for (std::size_t i = pixel * channels; i < (pixel + 1) * channels; ++i) {
             const auto v = static_cast<double>(image.pixels[i]);
             const auto r = static_cast<double>(reference.pixels[i]);
-            sums.mse += squared_term(v, r);
+            const double squared = squared_term(v, r) - (variance.empty() ? 0.0 : static_cast<double>(variance[i]));
+            sums.mse += squared;
             sums.mae += absolute_term(v, r);
             sums.smape += symmetric_term(v, r);
-            relative_terms.push_back(relative_term(v, r));
+            relative_terms.push_back(relative(squared, r));
             sums.rel_mse += relative_terms.back();
         }
     });

@@ -8,6 +8,7 @@
 #include "metrics/pixel_selection.h"
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -44,8 +45,11 @@ struct ErrorMetrics {
 /// Compares the selected pixels of `image` with those of `reference`, both of the same size and number of channels.
 /// Throws std::invalid_argument if they are not, or are empty. Values that are not finite make the measures not finite;
 /// so does a selection of no pixels.
+/// `variance` is that of each value of the reference, which is independent of the image, or empty: it is taken off the
+/// squared errors, so that relMSE, trimmed too, and MSE are in expectation those against a reference without noise.
 [[nodiscard]] ErrorMetrics compute_error_metrics(const ImageF& image, const ImageF& reference,
-                                                 const PixelSelection& selection = {});
+                                                 const PixelSelection& selection = {},
+                                                 std::span<const float> variance = {});
 
 /// One channel: each pixel's mean of the terms of `metric` over its channels. Their mean over the pixels is the
 /// measure; the trimmed relMSE has the map of relMSE. Throws as `compute_error_metrics`.

@@ -320,6 +320,7 @@ std::string to_text(const ImageDescription& description) {
         {"buckets", {description.buckets.count, description.buckets.first_light, description.buckets.first_value}},
         {"clamp_indirect", description.clamp_indirect},
         {"removed_light", description.removed_light ? Json(*description.removed_light) : Json()},
+        {"float", description.depth == PixelDepth::Float},
         {"statistics", to_object(description.statistics)}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -338,6 +339,7 @@ ImageDescription parse_description(const std::string& text, const LayerLayout& l
         json.at("clamp_indirect").get_to(description.clamp_indirect);
         if (const Json& layer = json.at("removed_light"); !layer.is_null())
             description.removed_light = layer.get<std::size_t>();
+        description.depth = json.at("float").get<bool>() ? PixelDepth::Float : PixelDepth::Half;
         description.aov_layout = kAovLayoutNames.at(static_cast<std::size_t>(files)).second;
         require_fitting(description, layout);
         return description;

@@ -27,7 +27,8 @@ struct ImageDescription {
     BucketLayers buckets{};                      ///< of the median of means that the image is; none: it is the mean
     float clamp_indirect = 0.0f;                 ///< the limit of indirect contributions; 0 for none
     std::optional<std::size_t> removed_light{};  ///< the light layer of what that took away
-    RenderStatistics statistics;  ///< of what is rendered; when it is read back, without what rendering it cost
+    PixelDepth depth = PixelDepth::Half;  ///< depth in which the image is written, unless a merge is told another
+    RenderStatistics statistics;          ///< of what is rendered; when it is read back, without what rendering it cost
 };
 
 /// The description of an image of `scene`, whose names of colour spaces are resolved, with the layers of `plan`.

@@ -1,5 +1,6 @@
 #include "profile/profile_runs.h"
 
+#include "core/process_time.h"
 #include "picture/render_setup.h"
 #include "process/hardware_counters.h"
 #include "process/peak_memory.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -163,6 +165,7 @@ class RunMeasurement {
         ProgressiveRender progressive(world_, *setup.integrator, options, *setup.threads);
         if (!render(setup, progressive, std::numeric_limits<double>::infinity(), run.spp)) return false;
         run.instrumented_seconds = progressive.state().wall_seconds;
+        run.instrumented_cpu_seconds = progressive.state().cpu_seconds;
         const WaveProfile waves = profile.total();
         result_.rays.add(waves);
         describe_stages(run, profile, waves);
@@ -237,7 +240,7 @@ class RunMeasurement {
             run.kinds.push_back(std::move(report));
         }
         // All repetitions render the same samples, and so does this one: these are the rays of each of them.
-        const double seconds = median(run.seconds) * run.threads;
+        const double seconds = median(run.cpu_seconds);
         run.efficiency_single = single / seconds;
         run.efficiency_best = best / seconds;
         const std::uint64_t shadow = rays[RayKind::Shadow];
@@ -256,9 +259,14 @@ class RunMeasurement {
             for (std::size_t form = 0; form < kForms.size(); ++form) {
                 std::vector<double> of_part(parts, 0.0);
                 threads.parallel_for(parts, [&](std::size_t part, int) {
+                    const auto start = std::chrono::steady_clock::now();
+                    const double cpu_before = thread_cpu_seconds();
                     for (std::size_t s = part; s < segments.size(); s += parts)
                         of_part[part] +=
                             world_.geometry().replay(segments[s], asks_for_occlusion(kind), coherence, kForms[form]);
+                    // Less what other programs took. Segments are too short for that clock, a call of the system.
+                    const double cpu = thread_cpu_seconds() - cpu_before;
+                    of_part[part] *= std::min(1.0, rate(cpu, seconds_since(start)));
                 });
                 seconds[form].push_back(std::accumulate(of_part.begin(), of_part.end(), 0.0));
             }

@@ -13,7 +13,7 @@ namespace {
 /// Writes numbers that are not finite as null.
 using Json = nlohmann::ordered_json;
 
-constexpr int kComparisonFormat = 3;
+constexpr int kComparisonFormat = 4;
 constexpr std::array kChannels{"R", "G", "B"};
 
 Json range(const SeedValues& values) {
@@ -161,6 +161,11 @@ Json to_json(const StrategiesReport& report) {
 Json to_json(const ReferenceReport& reference) {
     Json json{{"kind", reference.kind}, {"text", reference.text}, {"noise_relmse", reference.noise_rel_mse}};
     if (!reference.weights.empty()) json["weights"] = reference.weights;
+    if (reference.spp > 0) {
+        json["spp"] = reference.spp;
+        json["seconds"] = reference.seconds;
+        json["cpu_seconds"] = reference.cpu_seconds;
+    }
     if (reference.seeds.count > 0) json["seeds"] = {{"first", reference.seeds.first}, {"count", reference.seeds.count}};
     return json;
 }

@@ -70,8 +70,8 @@ struct VariantReport {
     SeedValues seconds{};
     SeedValues cpu_seconds{};
     double samples_per_cpu_second = 0.0;
-    std::uint64_t rays = 0;  ///< rays of one render, on average
-    double rays_per_second = 0.0;
+    std::uint64_t rays = 0;        ///< rays of one render, on average
+    double rays_per_second = 0.0;  ///< rays by the time by which variants are compared
     std::array<double, 3> mean{};  ///< R, G, B of all renders
     std::uint64_t dropped_samples = 0;
     ErrorsByMetric errors{};       ///< errors of the last images; empty without a reference
@@ -163,8 +163,11 @@ struct ReferenceReport {
     std::string kind{};                       ///< "file", "integrator", "pooled", or "none"
     std::string text{};                       ///< a sentence
     std::map<std::string, double> weights{};  ///< weights of variants in a pooled reference
-    double noise_rel_mse = kUnknown;          ///< part of the measured relMSE that is the reference's own noise
-    SeedRange seeds{};                        ///< seeds that a pooled reference was rendered with; else none
+    double noise_rel_mse = kUnknown;          ///< relMSE of the reference's own noise, which squared errors are without
+    SeedRange seeds{};                        ///< seeds that it was pooled from or rendered with; else none
+    std::uint32_t spp = 0;                    ///< samples per pixel of all renders, if it was rendered
+    double seconds = kUnknown;                ///< seconds of these renders
+    double cpu_seconds = kUnknown;
 };
 
 /// Holds the values that the first and the last colour of a kind of maps stand for.

@@ -104,21 +104,31 @@ std::string svg_of(const PlotText& text) {
                        text.at.y, text.size, svg_color(text.color), escaped(text.text), raised);
 }
 
+/// Returns the code of `c` in WinAnsiEncoding, Windows-1252; '?' of what has none.
+unsigned win_ansi(char32_t c) {
+    constexpr unsigned kFirst = 0x80;
+    // 0 where there is none.
+    constexpr std::array<char32_t, 32> kBeyondLatin{0x20ac, 0,      0x201a, 0x0192, 0x201e, 0x2026, 0x2020, 0x2021,
+                                                    0x02c6, 0x2030, 0x0160, 0x2039, 0x0152, 0,      0x017d, 0,
+                                                    0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022, 0x2013, 0x2014,
+                                                    0x02dc, 0x2122, 0x0161, 0x203a, 0x0153, 0,      0x017e, 0x0178};
+    constexpr char32_t kMinus = 0x2212, kEnDash = 0x2013;
+    if ((c >= 0x20 && c < 0x7f) || (c >= 0xa0 && c < 0x100)) return static_cast<unsigned>(c);
+    const auto* const found = std::ranges::find(kBeyondLatin, c == kMinus ? kEnDash : c);
+    return c == 0 || found == kBeyondLatin.end() ? '?' : kFirst + static_cast<unsigned>(found - kBeyondLatin.begin());
+}
+
 /// A string of PDF in its encoding WinAnsiEncoding.
 std::string pdf_text(const std::string& text) {
-    constexpr char32_t kMinus = 0x2212;
     std::string result = "(";
     for (const char32_t c : characters(text)) {
-        if (c == kMinus)
-            result += "\\226";  // an en dash
-        else if (c == '(' || c == ')' || c == '\\')
-            result += fmt::format("\\{}", static_cast<char>(c));
-        else if (c >= 0x20 && c < 0x7f)
-            result += static_cast<char>(c);
-        else if (c >= 0xa0 && c < 0x100)
-            result += fmt::format("\\{:03o}", static_cast<unsigned>(c));
+        const unsigned code = win_ansi(c);
+        if (code == '(' || code == ')' || code == '\\')
+            result += fmt::format("\\{}", static_cast<char>(code));
+        else if (code < 0x80)
+            result += static_cast<char>(code);
         else
-            result += '?';
+            result += fmt::format("\\{:03o}", code);
     }
     return result + ")";
 }
@@ -177,6 +187,10 @@ class PdfPage {
 };
 
 }  // namespace
+
+bool has_pdf_text(const std::string& text) {
+    return std::ranges::none_of(characters(text), [](char32_t c) { return c != '?' && win_ansi(c) == '?'; });
+}
 
 double text_width(const std::string& text, double size) {
     double width = 0.0;

@@ -51,6 +51,9 @@ struct Plot {
     std::vector<std::variant<PlotShape, PlotText>> parts{};  ///< the first lies below all others
 };
 
+/// True if the font of a PDF has all characters of `text`; those that it lacks are question marks there.
+[[nodiscard]] bool has_pdf_text(const std::string& text);
+
 /// Returns the width of `text` in Helvetica of `size` points; characters that the font lacks count as wide as a digit.
 [[nodiscard]] double text_width(const std::string& text, double size);
 

@@ -34,6 +34,25 @@ double stage_share(const ProfileRun& run, std::string_view name) {
     return found == run.stages.end() ? 0.0 : rate(found->value, sum_of(run.stages));
 }
 
+/// Shares of the threads' time in the repetition with instruments.
+struct ThreadTime {
+    double waiting = 0.0;  ///< without a tile while others have one; none of a single thread
+    double taken = 0.0;    ///< by other programs or the system; NaN if it is not known
+};
+
+ThreadTime thread_time(const ProfileRun& run) {
+    double tiles = 0.0, cpu = 0.0;
+    for (const TileReport& tile : run.tiles) {
+        tiles += tile.end - tile.start;
+        cpu += tile.cpu_seconds;
+    }
+    const double all = run.instrumented_seconds * run.threads;
+    // Waiting takes as much longer as tiles do, of which others have taken some; between tiles there is work, too.
+    const double without_tile = run.threads > 1 ? std::max(0.0, all - tiles) * rate(cpu, tiles) : 0.0;
+    const double idle = std::max(0.0, without_tile - std::max(0.0, run.instrumented_cpu_seconds - cpu));
+    return {rate(without_tile, all), 1.0 - rate(run.instrumented_cpu_seconds + idle, all)};
+}
+
 class Adviser {
   public:
     explicit Adviser(const ProfileRun& run) : run_(run), all_(sum_of(run.stages)) {}
@@ -142,23 +161,12 @@ class Adviser {
     }
 
     void threads() {
-        double tiles = 0.0, cpu = 0.0;
-        for (const TileReport& tile : run_.tiles) {
-            tiles += tile.end - tile.start;
-            cpu += tile.cpu_seconds;
-        }
-        const double all = run_.instrumented_seconds * run_.threads;
-        const double waiting = rate(all - tiles, all);
+        const double waiting = thread_time(run_).waiting;
         add(waiting, kMuchWaiting,
             fmt::format(
                 "threads have no tile for {} of their time, most of it at the ends of passes; larger images and "
                 "more --spp leave less of it",
                 human_percent(waiting)));
-        const double taken = rate(tiles - cpu, all);
-        add(taken, kMuchWaiting,
-            fmt::format("other programs, or the system, took {} of the threads' time: CPU times hold, and those on the "
-                        "clock would be less on a free machine",
-                        human_percent(taken)));
         if (run_.threads > 1 && run_.parallel_efficiency < 0.8)
             add(1.0 - run_.parallel_efficiency, 0.0,
                 fmt::format("{} threads do the work of {:.1f}", run_.threads, run_.threads * run_.parallel_efficiency));
@@ -176,6 +184,17 @@ class Adviser {
 
 std::vector<std::string> advice(const ProfileRun& run) {
     return Adviser(run).sentences();
+}
+
+std::string busy_machine(const ProfileRun& run) {
+    constexpr double kMostTaken = 0.2;
+    const double taken = thread_time(run).taken;
+    if (!(taken > kMostTaken)) return "";
+    return fmt::format(
+        "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times and efficiency hold, "
+        "but "
+        "seconds of stages, rays per second and all else by the clock do not",
+        run.integrator, run.threads, human_percent(taken));
 }
 
 std::string disagreement_of_repetitions(const ProfileRun& run) {

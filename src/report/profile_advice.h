@@ -12,6 +12,9 @@ namespace etendue {
 /// none where nothing stands out.
 [[nodiscard]] std::vector<std::string> advice(const ProfileRun& run);
 
+/// Returns a sentence if others took more than a fifth of the threads' time while stages were timed; else empty.
+[[nodiscard]] std::string busy_machine(const ProfileRun& run);
+
 /// A sentence if the repetitions of `run` differ by more than a tenth in their CPU time; else empty.
 [[nodiscard]] std::string disagreement_of_repetitions(const ProfileRun& run);
 

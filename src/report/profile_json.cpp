@@ -136,6 +136,7 @@ Json to_object(const ProfileRun& run) {
             {"cpu_seconds", run.cpu_seconds},
             {"cpu_seconds_per_sample", cpu_seconds_per_sample(run)},
             {"instrumented_seconds", run.instrumented_seconds},
+            {"instrumented_cpu_seconds", run.instrumented_cpu_seconds},
             {"samples", run.samples},
             {"samples_per_second", samples_per_second(run)},
             {"rays", run.rays},

@@ -95,14 +95,16 @@ struct ProfileRun {
     std::vector<double> seconds{};      ///< seconds of each repetition without instruments, all of the same samples
     std::vector<double> cpu_seconds{};  ///< processor seconds of all threads, repetition by repetition
     double instrumented_seconds = 0.0;  ///< seconds of the repetition in which stages were timed and rays recorded
-    std::uint64_t samples = 0;          ///< samples of one repetition
+    double instrumented_cpu_seconds =
+        std::numeric_limits<double>::quiet_NaN();  ///< processor seconds of all threads in that repetition
+    std::uint64_t samples = 0;                     ///< samples of one repetition
     std::uint64_t rays = 0;
     std::vector<RayKindReport> kinds{};  ///< kinds of rays that the integrator traces
     int light_samples = 1;               ///< lights that are sampled at what the eye sees directly
     SceneHitsReport scene_hits{};
     std::vector<NamedValue> stages{};  ///< seconds of all threads, in the order of the wave; "other" is the last
     double timing_share = 0.0;         ///< share of the threads' time that time stamps themselves took, [0, 1]
-    /// Time that bare Embree takes for exactly these rays over the time that the render took, medians of the
+    /// Processor time that bare Embree takes for exactly these rays over that of the render, by the median of the
     /// repetitions: as single rays, and in the form that is fastest for each kind.
     double efficiency_single = std::numeric_limits<double>::quiet_NaN();
     double efficiency_best = std::numeric_limits<double>::quiet_NaN();

@@ -400,6 +400,7 @@ constexpr std::array kRows{
             .help = "Seed of everything random",
             .place = at([](auto& s) -> auto& { return s.seed; })},
     Setting{.pointer = "/sampler",
+            .option = "--sampler",
             .type = kChoiceOf<kSamplerNames>,
             .decides = Decides::Samples,
             .help = "Sample sequence: `sobol`, Owen-scrambled and padded, or `random`, independent numbers",

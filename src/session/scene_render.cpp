@@ -252,6 +252,7 @@ class SceneRender {
     void describe_scene(PreparedScene& prepared, const std::string& hash, const std::string& requested) {
         const std::string working_space = resolve_colors(scene_.settings, colors_);
         description_ = describe_settings(scene_, aovs_);
+        description_.depth = request_.overrides.depth;
         RenderStatistics& s = description_.statistics;
         s.load = prepared.load;
         s.inputs = std::move(prepared.inputs);

@@ -45,7 +45,7 @@ std::vector<Strategy> shown_strategies(const StrategiesRequest& request, const P
 void require_other_files(const OutputPaths& image, const OutputPaths& pyramid) {
     for (const std::filesystem::path& of_image : {image.exr, image.png, image.json})
         for (const std::filesystem::path& of_pyramid : {pyramid.exr, pyramid.png})
-            if (written_file(of_image) == written_file(of_pyramid))
+            if (!of_image.empty() && written_file(of_image) == written_file(of_pyramid))
                 throw UsageError(
                     fmt::format("--strategies-image would write {} over {}, which belongs to the image (--output): "
                                 "give one of them another name",

@@ -120,7 +120,8 @@ TEST_P(ContinuationOf, PartsMergeToTheSingleImage) {
                                    Arguments{"top.partial", "right.partial", "left.partial"}}) {
         Arguments merge{"merge"};
         merge.insert(merge.end(), parts.begin(), parts.end());
-        merge.insert(merge.end(), {"--float", "--quiet", "-o", "merged.exr"});
+        // With the parts' 32-bit floats.
+        merge.insert(merge.end(), {"--quiet", "-o", "merged.exr"});
         const ProgramResult merged = run(merge);
         ASSERT_EQ(merged.exit_code, 0) << merged.err;
         // Squares of relative differences of 1e-6.
@@ -134,8 +135,10 @@ TEST_P(ContinuationOf, PartsMergeToTheSingleImage) {
     }
     // Parts of parts.
     ASSERT_EQ(run({"merge", "0:7.partial", "7:16.partial", "-o", "sum.partial"}).exit_code, 0);
-    ASSERT_EQ(run({"merge", "sum.partial", "16:20.partial", "--float", "-o", "merged.exr"}).exit_code, 0);
+    ASSERT_EQ(run({"merge", "sum.partial", "16:20.partial", "-o", "merged.exr"}).exit_code, 0);
     EXPECT_LT(difference("merged.exr", "whole.exr"), 1e-12);
+    ASSERT_EQ(run({"merge", "sum.partial", "16:20.partial", "--half", "-o", "merged.exr"}).exit_code, 0);
+    EXPECT_GT(difference("merged.exr", "whole.exr"), 1e-10) << "in 16 bits";
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, ContinuationOf, testing::Values("path", "light", "bdpt", "vcm"),

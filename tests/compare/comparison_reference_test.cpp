@@ -1,5 +1,8 @@
 #include "compare/comparison_reference.h"
 
+#include "metrics/error_metrics.h"
+
+#include <array>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,18 +19,18 @@ Variant variant(const std::string& integrator, const std::string& name = "") {
     return result;
 }
 
-/// Three renders of a grey image.
-FinishedImages finished(float grey, float noise, std::uint32_t seed) {
+/// Renders of a grey image, three unless `count` says.
+FinishedImages finished(float grey, float noise, std::uint32_t seed, int count = 3) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<float> spread(-noise, noise);
     FinishedImages images;
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < count; ++round) {
         ImageF image(32, 32, 3);
         for (float& value : image.pixels) value = grey + (noise > 0.0f ? spread(generator) : 0.0f);
         images.of_seeds.push_back(image);
     }
     images.estimate = estimate_image(images.of_seeds);
-    images.relative_variance = 3.0 * relative_variance(images.estimate);
+    images.relative_variance = count * relative_variance(images.estimate);
     images.block_size = 16;
     return images;
 }
@@ -60,6 +63,32 @@ TEST(PoolReference, WeighsByOneOverTheVariance) {
     EXPECT_TRUE(pooled.notes.empty()) << pooled.notes;
 }
 
+TEST(PoolReference, ItsNoiseIsNoPartOfSquaredErrors) {
+    constexpr float kGrey = 100.0f;  // far above the noise, so that relMSE is MSE over its square
+    constexpr int kTrials = 40, kRounds = 4;
+    constexpr std::array kNoise{1.0f, 2.0f};
+    std::array<double, 2> mse{};
+    std::array<double, 2> rel_mse{};
+    for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+        std::vector<FinishedImages> images;
+        for (std::uint32_t v = 0; v < 2; ++v) images.push_back(finished(kGrey, kNoise.at(v), 2 * trial + v, kRounds));
+        const Pooled pooled = pool(variants({"path", "bdpt"}), images);
+        if (!pooled.reference) continue;  // a test in a hundred fails by chance
+        for (std::size_t v = 0; v < 2; ++v)
+            for (std::size_t round = 0; round < kRounds; ++round) {
+                const ErrorMetrics errors =
+                    compute_error_metrics(images[v].of_seeds[round], pooled.reference->of_round(round), {},
+                                          pooled.reference->variance_of_round(round));
+                mse.at(v) += errors.mse;
+                rel_mse.at(v) += errors.rel_mse;
+            }
+    }
+    // Of a million values the variance is known to 0.2%; the noise of the reference would be a quarter of the first.
+    EXPECT_NEAR(mse[0] / mse[1], 0.25, 0.0025);
+    EXPECT_NEAR(mse[0] / (kTrials * kRounds), 1.0 / 3.0, 0.05);
+    EXPECT_NEAR(rel_mse[0] / rel_mse[1], 0.25, 0.0025);
+}
+
 TEST(PoolReference, WhatHasNoVarianceHasAllTheWeight) {
     const std::vector<FinishedImages> images{finished(0.5f, 0.0f, 1), finished(0.5f, 0.01f, 2),
                                              finished(0.5f, 0.0f, 3)};
@@ -77,6 +106,19 @@ TEST(PoolReference, IsNotMadeOfImagesThatDisagree) {
     EXPECT_FALSE(pooled.reference);
     EXPECT_FALSE(pooled.pairs[0].agreement->agree());
     EXPECT_NE(pooled.notes.find("do not make the same image"), std::string::npos) << pooled.notes;
+}
+
+TEST(PoolReference, LeavesOutWhatCannotBeTested) {
+    std::vector<FinishedImages> images{finished(0.5f, 0.1f, 1), finished(0.5f, 0.1f, 2), finished(0.5f, 0.1f, 3)};
+    images[0].block_size.reset();
+    const Pooled pooled = pool(variants({"path", "bdpt", "vcm"}), images);
+    ASSERT_TRUE(pooled.reference) << pooled.notes;
+    EXPECT_FALSE(pooled.reference->report().weights.contains("path"));
+    EXPECT_NE(pooled.notes.find("no part of 'path': so few pixels"), std::string::npos) << pooled.notes;
+    images[2].block_size.reset();
+    const Pooled none = pool(variants({"path", "bdpt", "vcm"}), images);
+    EXPECT_FALSE(none.reference);
+    EXPECT_NE(none.notes.find("the image of 'path' and of 'vcm' that nothing"), std::string::npos) << none.notes;
 }
 
 TEST(PoolReference, IsOfTheLightThatMostVariantsShow) {

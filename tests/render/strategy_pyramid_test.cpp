@@ -67,6 +67,32 @@ TEST(RenderStrategies, WeightedOnesAddUpToTheImage) {
     EXPECT_EQ(parts[4].image->channels, 4);
 }
 
+TEST(RenderStrategies, AddUpToTheImageWhereLampsInMirrorsAreFound) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc mirror;
+    mirror.roughness = 0.0f;
+    add_object(scene, quad({0, 0, -2}, {3, 0, 0}, {0, 3, 0}), add_material(scene, mirror));
+    add_object(scene, quad({0.3f, 0.1f, 1}, {-0.004f, 0, 0}, {0, 0.004f, 0}), add_material(scene, emissive(Rgb(1e5f))));
+    const World world = compile(std::move(scene));
+    const ThreadPool threads(2);
+    const std::atomic<bool> stop{false};
+    const RenderOptions options = whole_image(12, 12, 4);
+    const IntegratorSettings integrator{.type = "bdpt", .lengths = {.max_depth = 3}};
+    const std::vector<StrategyImage> images =
+        render_strategies(world, integrator, strategies_between(1, 3), options, threads, stop, {});
+    const std::vector<float> whole =
+        render(world, *make_integrator("bdpt", integrator), options, threads, stop, {}).film.resolve();
+    double found = 0.0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        if (i % 4 == 3) continue;  // alpha
+        double sum = 0.0;
+        for (const StrategyImage& image : images) sum += static_cast<double>(image.rgba.pixels[i]);
+        EXPECT_NEAR(sum, static_cast<double>(whole[i]), 1e-4 * (1.0 + sum)) << i;
+        found += sum;
+    }
+    EXPECT_GT(found, 1.0) << "the mirror shows the lamp";
+}
+
 TEST(RenderStrategies, OfWhatMergesAddUpWithTheMerges) {
     SceneDesc scene = empty_scene();
     add_object(scene, quad({0, -0.6f, -3}, {1.2f, 0, 0}, {0, 0, -1.2f}), add_material(scene, diffuse(Rgb(0.7f))));

@@ -56,7 +56,7 @@ TEST(SeedValues, AreSummedUp) {
 
 TEST(ComparisonJson, HoldsWhatWasMeasured) {
     const Json json = Json::parse(to_json(small_comparison()));
-    EXPECT_EQ(json["format"], 3);
+    EXPECT_EQ(json["format"], 4);
     EXPECT_EQ(json["scene"]["crop"], Json({1, 2, 21, 22}));
     EXPECT_EQ(json["settings"]["seconds"], 2.0);
     EXPECT_TRUE(json["settings"]["spp"].is_null());

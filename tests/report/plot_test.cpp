@@ -49,6 +49,15 @@ TEST(Plot, PdfSaysWhereItsObjectsAre) {
     EXPECT_NE(pdf.find("/ca 0.5"), std::string::npos) << pdf;
 }
 
+TEST(Plot, PdfHasTheCharactersOfItsEncoding) {
+    Plot plot{.width = 100.0, .height = 50.0, .title = "€ Œ “a” … Ÿ", .parts = {}};
+    const std::string pdf = to_pdf(plot);
+    EXPECT_NE(pdf.find("/Title (\\200 \\214 \\223a\\224 \\205 \\237)"), std::string::npos) << pdf;
+    EXPECT_TRUE(has_pdf_text(plot.title));
+    EXPECT_TRUE(has_pdf_text("what is asked?"));
+    EXPECT_FALSE(has_pdf_text("☃"));
+}
+
 TEST(Plot, SvgIsTheSameModel) {
     const std::string svg = to_svg(small_plot());
     EXPECT_NE(svg.find("M0.00 0.00L10.00 20.00L10.00 0.00Z"), std::string::npos) << svg;

@@ -235,12 +235,25 @@ TEST(ProfileAdvice, SaysWhatTakesTheTimeAndWhatWouldChangeIt) {
     EXPECT_NE(advice_of(run).find("camera rays are 16.7% of the time; their packets are 31.0% full\n"),
               std::string::npos)
         << advice_of(run);
-    // Tiles take 1.5 of 2.5 s, and 1.2 s of CPU time.
-    EXPECT_NE(advice_of(run).find("threads have no tile for 40.0% of their time"), std::string::npos) << advice_of(run);
-    EXPECT_EQ(advice_of(run).find("other programs"), std::string::npos) << "12%: " << advice_of(run);
-    run.tiles[2].cpu_seconds = 0.4;
-    EXPECT_NE(advice_of(run).find("took 20.0% of the threads' time"), std::string::npos) << advice_of(run);
     EXPECT_TRUE(advice(ProfileRun{}).empty());
+}
+
+TEST(ProfileAdvice, TellsWaitingFromWhatOthersTook) {
+    // Tiles take 1.5 of 2.5 s, and 1.2 s of CPU time, of which all threads together had 1.3 s.
+    ProfileRun run = made_up_profile().runs[0];
+    run.instrumented_cpu_seconds = 1.3;
+    EXPECT_EQ(advice_of(run).find("no tile"), std::string::npos) << "one thread waits for nobody: " << advice_of(run);
+    EXPECT_NE(busy_machine(run).find("took 48.0% of the threads' time"), std::string::npos) << busy_machine(run);
+    run.threads = 2;
+    run.tiles[2].cpu_seconds = 0.4;
+    run.instrumented_cpu_seconds = 1.1;
+    // 3.5 s without a tile would have been two thirds of that; 0.1 s of them was work.
+    EXPECT_NE(advice_of(run).find("threads have no tile for 46.7% of their time"), std::string::npos) << advice_of(run);
+    EXPECT_NE(busy_machine(run).find("took 33.3%"), std::string::npos) << busy_machine(run);
+    for (TileReport& tile : run.tiles) tile.cpu_seconds = tile.end - tile.start;
+    run.instrumented_cpu_seconds = 1.6;
+    EXPECT_EQ(busy_machine(run), "") << "all the rest is waiting";
+    EXPECT_EQ(busy_machine(ProfileRun{}), "") << "nothing is known";
 }
 
 TEST(ProfileAdvice, WarnsWhereRepetitionsDisagree) {

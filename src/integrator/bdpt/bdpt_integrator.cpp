@@ -1,5 +1,6 @@
 #include "integrator/bdpt/bdpt_integrator.h"
 
+#include "integrator/bdpt/bdpt_job.h"
 #include "integrator/bdpt/bdpt_wave.h"
 #include "integrator/trace_in_waves.h"
 
@@ -43,8 +44,8 @@ Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
 
 std::unique_ptr<const LampImages> BdptIntegrator::lamp_images(const World& world, const TileJob& whole,
                                                               const PixelRect& window) const {
-    // They are of no single strategy.
-    if (!settings_.lamp_images || settings_.strategy) return nullptr;
+    // Of all strategies (0, t) alone make such paths.
+    if (!settings_.lamp_images || !meets_lamps(settings_)) return nullptr;
     return find_lamp_images(world, whole, window);
 }
 

@@ -13,6 +13,11 @@ namespace etendue {
     return settings.weighted ? static_cast<float>(sums.weight()) : 1.0f;
 }
 
+/// True if a strategy (0, t), by which eye subpaths meet lamps, has a part in the image.
+[[nodiscard]] inline bool meets_lamps(const IntegratorSettings& settings) {
+    return !settings.strategy || (settings.strategy->s == 0 && *settings.strategy != kMerges);
+}
+
 /// Adds to what subpaths are traced for how they are connected.
 struct BdptJob : SubpathJob {
     const IntegratorSettings& settings;

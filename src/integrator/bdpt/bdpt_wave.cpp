@@ -127,8 +127,14 @@ void BdptWave::merge(const BdptJob& job) {
 
 void BdptWave::start(const World& world, const TileJob& job, const IntegratorSettings& settings) {
     const bool is_wanted = !settings.strategy || *settings.strategy == Strategy{.s = 0, .t = 2};
+    PathLengths lengths = settings.lengths;
+    if (settings.strategy && meets_lamps(settings)) {
+        // By deltas alone there are no vertices in media.
+        lengths.min_depth = std::max(lengths.min_depth, settings.strategy->edges());
+        lengths.max_depth = std::min(lengths.max_depth, settings.strategy->edges());
+    }
     lamps_.start(
-        world, job, settings.lengths, false,
+        world, job, lengths, false,
         [&world, &job, &settings, is_wanted](const CameraSample& sample, const Ray& ray, const SurfacePoint& point) {
             const std::uint32_t light = world.lights().at(point);
             if (!is_wanted || light == kNone) return is_wanted ? 1.0f : 0.0f;
