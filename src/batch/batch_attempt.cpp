@@ -29,15 +29,13 @@ namespace etendue {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
 constexpr std::chrono::milliseconds kBetweenLooks(100);
 /// Without a sign of progress since it was told to stop, a child is ended: longer than any file takes to be written.
 constexpr std::chrono::minutes kMostSilence(5);
 
-std::vector<std::string> child_arguments(const BatchTask& task, const BatchOptions& options,
-                                         const AttemptOptions& how) {
-    std::vector<std::string> arguments = render_arguments(task, options);
+std::vector<std::string> child_arguments(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
+                                         int threads) {
+    std::vector<std::string> arguments = render_arguments(task, options, threads);
     arguments.insert(arguments.end(), {"--progress-fd", fmt::format("{}", ChildProcess::kProgressDescriptor),
                                        "--checkpoint-every", fmt::format("{}", options.checkpoint_minutes)});
     if (options.keep_sums_after)
@@ -109,77 +107,95 @@ class Repeater {
 
 }  // namespace
 
-namespace {
+ChildAttempt::ChildAttempt(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how, int threads)
+    : options_(options) {
+    commands_.push_back({child_arguments(task, options, how, threads), "start", options.stall_minutes});
+    if (options.denoise) {
+        const std::string image = as_argument(task.job.output);
+        const std::string denoised = as_argument(denoised_path(task.job.output));
+        std::vector<std::string> arguments{"denoise", image, "-o", denoised, "--quiet"};
+        if (threads > 0) arguments.insert(arguments.end(), {"--threads", fmt::format("{}", threads)});
+        // Neither of the two tells of its progress.
+        commands_.push_back({std::move(arguments), "denoise"});
+        const std::string preview = fs::path(denoised).replace_extension(".png").string();
+        if (options.overrides.png) commands_.push_back({{"view", denoised, "-o", preview}, "denoise"});
+    }
+    start_next();
+}
 
-/// Runs a command of this program to its end. It is ended when it shows no progress for `stall_minutes`, unless that is
-/// 0.
-Attempt run_in_child(std::vector<std::string> arguments, const BatchOptions& options, double stall_minutes,
-                     const AttemptCallbacks& callbacks) {
-    ChildProcess child({.arguments = std::move(arguments), .memory_limit = options.max_memory});
-    Attempt attempt;
-    Clock::time_point last_sign = Clock::now();  // of its going on
-    bool was_told_to_stop = false;
-    const std::chrono::duration<double, std::ratio<60>> stall_limit(stall_minutes);
+void ChildAttempt::start_next() {
+    child_ = std::make_unique<ChildProcess>(
+        ChildOptions{.arguments = commands_.front().arguments, .memory_limit = options_.max_memory});
+    attempt_ = {};
+    last_sign_ = Clock::now();
+    was_told_to_stop_ = false;
+}
+
+void ChildAttempt::wait_for_any(std::span<const ChildAttempt* const> attempts) {
+    std::vector<const ChildProcess*> children;
+    children.reserve(attempts.size());
+    for (const ChildAttempt* const attempt : attempts) children.push_back(attempt->child_.get());
+    ChildProcess::wait_for_any(children, kBetweenLooks);
+}
+
+bool ChildAttempt::go_on(const AttemptCallbacks& callbacks) {
+    if (attempt_.phase.empty()) callbacks.on_progress({.phase = commands_.front().phase});
     const auto on_progress = [&](const std::string& line) {
         const std::optional<ChildProgress> progress = parse_progress(line);
         if (!progress) return;
-        last_sign = Clock::now();
-        attempt.phase = progress->phase;
+        last_sign_ = Clock::now();
+        attempt_.phase = progress->phase;
         callbacks.on_progress(*progress);
     };
-    bool has_lock = true;
-    while (child.wait(kBetweenLooks, callbacks.on_message, on_progress)) {
-        if (interrupt_requested() && !was_told_to_stop) {
+    if (child_->wait(std::chrono::milliseconds(0), callbacks.on_message, on_progress)) {
+        if (interrupt_requested() && !was_told_to_stop_) {
             // It may have got the signal itself, which is as good. A second one from the user ends this process, and
             // with it the child.
-            child.send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
-            was_told_to_stop = true;
-            last_sign = Clock::now();
+            child_->send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
+            was_told_to_stop_ = true;
+            last_sign_ = Clock::now();
         }
-        // Libraries that were denied memory may wait for a lock for ever.
-        const Clock::duration silence = Clock::now() - last_sign;
-        attempt.is_stalled = !was_told_to_stop && stall_limit.count() > 0.0 && silence > stall_limit;
-        if (attempt.is_stalled || (was_told_to_stop && silence > kMostSilence)) child.send(SIGKILL);
-        if (attempt.phase == "render" && preview_requested()) {
-            clear_preview_request();
-            child.send(SIGUSR1);
+        end_if_silent();
+        if (has_lock_ && !callbacks.keep_alive()) {
+            has_lock_ = false;
+            child_->send(SIGKILL);
         }
-        if (has_lock && !callbacks.keep_alive()) {
-            has_lock = false;
-            child.send(SIGKILL);
-        }
+        return true;
     }
-    const ChildEnd& end = child.end();
+    judge();
+    if (attempt_.end != AttemptEnd::Done) return false;
+    commands_.pop_front();
+    if (commands_.empty()) return false;
+    start_next();
+    return true;
+}
+
+void ChildAttempt::end_if_silent() {
+    // Libraries that were denied memory may wait for a lock for ever.
+    const Clock::duration silence = Clock::now() - last_sign_;
+    const std::chrono::duration<double, std::ratio<60>> limit(commands_.front().stall_minutes);
+    attempt_.is_stalled = !was_told_to_stop_ && limit.count() > 0.0 && silence > limit;
+    if (attempt_.is_stalled || (was_told_to_stop_ && silence > kMostSilence)) child_->send(SIGKILL);
+}
+
+void ChildAttempt::judge() {
+    const ChildEnd& end = child_->end();
     if (end.signal == 0)
-        attempt.exit_code = end.exit_code;
+        attempt_.exit_code = end.exit_code;
     else
-        attempt.signal = signal_name(end.signal);
-    if (!has_lock)
-        attempt.end = AttemptEnd::LockLost;
+        attempt_.signal = signal_name(end.signal);
+    if (!has_lock_)
+        attempt_.end = AttemptEnd::LockLost;
     else if (end.signal == 0 && end.exit_code == 0)
-        attempt.end = AttemptEnd::Done;
+        attempt_.end = AttemptEnd::Done;
     else
-        judge_failure(child, options, attempt);
-    return attempt;
+        judge_failure(*child_, options_, attempt_);
 }
 
-}  // namespace
-
-Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
-                         const AttemptCallbacks& callbacks) {
-    return run_in_child(child_arguments(task, options, how), options, options.stall_minutes, callbacks);
-}
-
-Attempt denoise_in_child(const BatchTask& task, const BatchOptions& options, const AttemptCallbacks& callbacks) {
-    const std::string image = as_argument(task.job.output);
-    const std::string denoised = as_argument(denoised_path(task.job.output));
-    std::vector<std::string> arguments{"denoise", image, "-o", denoised, "--quiet"};
-    if (options.threads > 0) arguments.insert(arguments.end(), {"--threads", fmt::format("{}", options.threads)});
-    // It tells nothing of its progress.
-    Attempt attempt = run_in_child(std::move(arguments), options, 0.0, callbacks);
-    if (attempt.end != AttemptEnd::Done || !options.overrides.png) return attempt;
-    const std::string preview = fs::path(denoised).replace_extension(".png").string();
-    return run_in_child({"view", denoised, "-o", preview}, options, 0.0, callbacks);
+bool ChildAttempt::show_preview() {
+    if (attempt_.phase != "render") return false;
+    child_->send(SIGUSR1);
+    return true;
 }
 
 Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,

@@ -5,9 +5,15 @@
 #include "batch/batch_options.h"
 #include "batch/batch_units.h"
 #include "core/parallel.h"
+#include "process/child_process.h"
 
+#include <chrono>
+#include <cstdint>
+#include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,14 +51,52 @@ struct AttemptCallbacks {
     std::function<bool()> keep_alive;  ///< a few times a second; false if the attempt must end at once
 };
 
-/// Renders the image in a process of its own. Throws IoError if there can be none.
-[[nodiscard]] Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
-                                       const AttemptCallbacks& callbacks);
+/// An attempt at an image in processes of their own, one after the other: it is rendered, and if the batch is to, freed
+/// of its noise by `etendue denoise` and shown as a PNG. All attempts are kept going by one thread.
+class ChildAttempt {
+  public:
+    /// Starts to render the image with `threads` threads, or one per processor if that is 0. `options` outlives it.
+    /// Throws IoError if there can be no process.
+    ChildAttempt(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how, int threads);
 
-/// Takes the noise out of the image, which has been rendered, by `etendue denoise`, and shows the result as a PNG
-/// unless the batch is to write none. Throws IoError if there can be no process.
-[[nodiscard]] Attempt denoise_in_child(const BatchTask& task, const BatchOptions& options,
-                                       const AttemptCallbacks& callbacks);
+    /// Waits until one of them has something to tell, a signal arrives here, or a tenth of a second is over.
+    static void wait_for_any(std::span<const ChildAttempt* const> attempts);
+
+    /// Hands over what the process has told, and does what is to be done with it: an interruption is passed on, and it
+    /// is ended if it shows no progress. Returns false once the attempt is over. Throws IoError if the next process
+    /// cannot be started.
+    [[nodiscard]] bool go_on(const AttemptCallbacks& callbacks);
+
+    /// Lets it write a preview if it is rendering; returns whether it is.
+    bool show_preview();
+
+    /// Returns the bytes of memory that its process has now.
+    [[nodiscard]] std::uint64_t memory_bytes() const { return child_->own_memory_bytes(); }
+
+    /// Valid once `go_on` has returned false.
+    [[nodiscard]] const Attempt& result() const { return attempt_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Command {
+        std::vector<std::string> arguments{};
+        std::string phase{};         ///< shown until the process tells of one
+        double stall_minutes = 0.0;  ///< minutes without progress after which it is ended; 0: never
+    };
+
+    void start_next();
+    /// Ends the process if it has been silent for too long.
+    void end_if_silent();
+    void judge();
+
+    const BatchOptions& options_;
+    std::deque<Command> commands_;  ///< from the one that runs on
+    std::unique_ptr<ChildProcess> child_;
+    Attempt attempt_;
+    Clock::time_point last_sign_;  ///< last sign of its going on
+    bool was_told_to_stop_ = false;
+    bool has_lock_ = true;
+};
 
 /// Renders it here. `title` stands before the progress bar; `keep_alive` is called from a thread of its own;
 /// once it is false, rendering ends soon, and nothing is written any more.

@@ -1,6 +1,7 @@
 #include "batch/batch_child.h"
 
 #include "core/error.h"
+#include "session/exit_code.h"
 #include "session/interrupt.h"
 
 #include <algorithm>
@@ -20,14 +21,20 @@ constexpr std::chrono::milliseconds kBetweenLooksAtChild(100);
 
 /// Holds what a process that was asked has said.
 struct Answer {
-    nlohmann::json json{};  ///< no object if there was no whole one
-    std::string error{};    ///< why there is none that counts
+    nlohmann::json json{};     ///< no object if there was no whole one
+    std::string error{};       ///< why there is none that counts
+    bool has_refused = false;  ///< its process has said so and ended by itself
 };
 
 /// Returns the text at `key` of an object; empty if there is none.
 std::string text_of(const nlohmann::json& json, const char* key) {
     const auto found = json.find(key);
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// Returns what stands at `key` of `json`; null if that is no object, or has none.
+nlohmann::json value_of(const nlohmann::json& json, const char* key) {
+    return json.is_object() ? json.value(key, nlohmann::json()) : nlohmann::json();
 }
 
 int number_of(const nlohmann::json& json, const char* key) {
@@ -48,6 +55,9 @@ Answer ask(std::vector<std::string> arguments, const BatchOptions& options) try 
     if (!child.output_was_cut()) answer.json = nlohmann::json::parse(child.output(), nullptr, false);
     if (interrupt_requested() || (child.end().signal == 0 && child.end().exit_code == 0)) return answer;
     answer.error = error_of(child.last_messages());
+    answer.has_refused =
+        child.end().signal == 0 && (child.end().exit_code == static_cast<int>(ExitCode::InvalidScene) ||
+                                    child.end().exit_code == static_cast<int>(ExitCode::UsageError));
     if (answer.error.empty()) answer.error = "error: " + end_in_words(child.end());
     return answer;
 } catch (const IoError&) {
@@ -101,10 +111,10 @@ std::optional<ChildProgress> parse_progress(const std::string& line) {
                          has_samples ? samples->get<std::uint64_t>() : 0};
 }
 
-std::vector<std::string> render_arguments(const BatchTask& task, const BatchOptions& options) {
+std::vector<std::string> render_arguments(const BatchTask& task, const BatchOptions& options, int threads) {
     std::vector<std::string> arguments{"render", as_argument(task.job.scene), "-o", as_argument(task.render_output)};
     for (std::string& option : options_of(task, options)) arguments.push_back(std::move(option));
-    if (options.threads > 0) arguments.insert(arguments.end(), {"--threads", fmt::format("{}", options.threads)});
+    if (threads > 0) arguments.insert(arguments.end(), {"--threads", fmt::format("{}", threads)});
     if (options.quiet) arguments.emplace_back("--quiet");
     return arguments;
 }
@@ -115,7 +125,7 @@ SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& op
     const nlohmann::json json = ask({"inspect", as_argument(scene), "--json"}, options).json;
     const auto list = [&](const char* key) {
         std::vector<std::string> found;
-        const auto all = json.is_object() ? json.value(key, nlohmann::json()) : nlohmann::json();
+        const nlohmann::json all = value_of(json, key);
         if (all.is_array())
             for (const nlohmann::json& name : all)
                 if (name.is_string()) found.push_back(name.get<std::string>());
@@ -133,13 +143,16 @@ SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& op
 }
 
 SceneLook probe_in_child(const BatchTask& task, const BatchOptions& options) {
-    std::vector<std::string> arguments = render_arguments(task, options);
+    std::vector<std::string> arguments = render_arguments(task, options, options.threads);
     arguments.emplace_back("--probe");
     const Answer answer = ask(std::move(arguments), options);
     SceneLook look = look_of(answer, answer.json);
-    const auto seconds =
-        answer.json.is_object() ? answer.json.value("estimated_seconds", nlohmann::json()) : nlohmann::json();
-    if (seconds.is_number()) look.seconds = seconds.get<double>();
+    if (const nlohmann::json seconds = value_of(answer.json, "estimated_seconds"); seconds.is_number())
+        look.seconds = seconds.get<double>();
+    if (const nlohmann::json memory = value_of(answer.json, "estimated_memory_bytes"); memory.is_number_unsigned())
+        look.memory_bytes = memory.get<std::uint64_t>();
+    // What is refused is refused before anything large is made.
+    if (answer.has_refused) look.memory_bytes = 0;
     return look;
 }
 
@@ -147,17 +160,14 @@ SceneLook inspect_in_child(const BatchTask& task, const BatchOptions& options) {
     std::vector<std::string> arguments{"inspect", as_argument(task.job.scene), "--json"};
     for (std::string& option : options_of(task, options)) arguments.push_back(std::move(option));
     Answer answer = ask(std::move(arguments), options);
-    const auto value = [&](const char* key) {
-        return answer.json.is_object() ? answer.json.value(key, nlohmann::json()) : nlohmann::json();
-    };
     std::string errors;
-    for (const nlohmann::json& problem : value("problems")) {
+    for (const nlohmann::json& problem : value_of(answer.json, "problems")) {
         if (!problem.is_object() || text_of(problem, "severity") != "error") continue;
         if (!errors.empty()) errors += '\n';
         errors += text_of(problem, "text");
     }
     if (!errors.empty()) answer.error = errors;
-    return look_of(answer, value("image"));
+    return look_of(answer, value_of(answer.json, "image"));
 }
 
 std::string error_of(const std::deque<std::string>& lines) {

@@ -28,8 +28,10 @@ struct ChildProgress {
 /// Returns a path that no command line takes for an option.
 [[nodiscard]] std::string as_argument(const std::filesystem::path& path);
 
-/// The arguments of `etendue render` for one image, with all that the batch was told about how to render.
-[[nodiscard]] std::vector<std::string> render_arguments(const BatchTask& task, const BatchOptions& options);
+/// The arguments of `etendue render` for one image, with all that the batch was told about how to render, and `threads`
+/// threads, or one per processor if that is 0.
+[[nodiscard]] std::vector<std::string> render_arguments(const BatchTask& task, const BatchOptions& options,
+                                                        int threads);
 
 /// Reads the names of a scene's variants and cameras by a process of its own. None if it cannot be read: rendering it
 /// will say so.
@@ -37,9 +39,10 @@ struct ChildProgress {
 
 /// Holds what another process found out about an image that is to be rendered.
 struct SceneLook {
-    std::optional<double> seconds{};  ///< seconds that the image will take; none if nobody tried
-    ImageOutline outline{};           ///< outline of the image; empty if it was not found out
-    std::string error{};              ///< why the image cannot be rendered, of any number of lines; empty if it can
+    std::optional<double> seconds{};              ///< seconds that the image will take; none if nobody tried
+    std::optional<std::uint64_t> memory_bytes{};  ///< bytes that its process will need; none if nobody knows
+    ImageOutline outline{};                       ///< outline of the image; empty if it was not found out
+    std::string error{};  ///< why the image cannot be rendered, of any number of lines; empty if it can
 };
 
 /// Renders the beginning of the image, by `etendue render --probe`.

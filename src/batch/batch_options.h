@@ -36,8 +36,11 @@ struct BatchOptions {
     bool only_failed = false;            ///< only images that failed last time
     BatchOrder order = BatchOrder::Found;
     bool denoise = false;  ///< beside each image, one without noise
-    int threads = 0;       ///< threads of each render; 0: one per processor
-    bool force = false;    ///< images that are up to date are rendered, too
+    int threads = 0;       ///< threads of all renders together; 0: one per processor
+    int jobs = 1;          ///< images that are rendered at the same time; 0: as many as suit the threads
+    std::optional<std::uint64_t>
+        jobs_memory{};   ///< bytes that these may take together; none: what the machine has free
+    bool force = false;  ///< images that are up to date are rendered, too
 
     bool dry_run = false;
     bool no_probe = false;

@@ -99,6 +99,7 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
         }
         unit.outline = look.outline;
         unit.error = look.error;
+        unit.memory_bytes = look.memory_bytes;
         if (look.seconds) unit.estimated_seconds = *look.seconds * (1.0 - unit.done);
     }
     return plan;

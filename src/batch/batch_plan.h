@@ -28,11 +28,12 @@ struct FileStamp {
 
 struct PlannedUnit {
     BatchTask task;
-    std::string reason{};                       ///< why it is stale; empty if it is up to date
-    double done = 0.0;                          ///< part of its samples that a checkpoint holds, [0, 1]
-    std::optional<double> estimated_seconds{};  ///< seconds for what is left; if it is stale and a probe was possible
-    FileStamp seen{};                           ///< the statistics beside the image, when they were looked at
-    ImageOutline outline{};                     ///< outline of the image, as far as it was found out
+    std::string reason{};                         ///< why it is stale; empty if it is up to date
+    double done = 0.0;                            ///< part of its samples that a checkpoint holds, [0, 1]
+    std::optional<double> estimated_seconds{};    ///< seconds for what is left; if it is stale and a probe was possible
+    std::optional<std::uint64_t> memory_bytes{};  ///< bytes that its process will need; none if nobody knows
+    FileStamp seen{};                             ///< the statistics beside the image, when they were looked at
+    ImageOutline outline{};                       ///< outline of the image, as far as it was found out
     std::string error{};  ///< why it cannot be rendered, of any number of lines; empty if nothing is known to be wrong
 
     [[nodiscard]] bool is_stale() const { return !reason.empty(); }

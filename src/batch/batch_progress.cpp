@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
+#include <span>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -35,6 +37,34 @@ std::string stamped(const std::string& text) {
     return fmt::format("{:%Y-%m-%d %H:%M:%S}  {}", local_time(std::chrono::system_clock::now()), text);
 }
 
+/// Returns the end of `name` that fits into `room` characters.
+std::string shortened(const std::string& name, std::size_t room) {
+    constexpr std::string_view kCut = "...";
+    if (name.size() <= room) return name;
+    return room > kCut.size() ? std::string(kCut) + std::string(last_characters(name, room - kCut.size())) : "";
+}
+
+/// Lists images with how far they are, "a: 43%, b: load, +2", in `room` characters if that is possible.
+std::string under_way_text(std::span<const BatchProgressLine::UnderWay> images, std::size_t room) {
+    std::string text;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const auto count = [&](std::size_t left_out) {
+            return left_out > 0 ? fmt::format(", +{}", left_out) : std::string();
+        };
+        const std::string state = images[i].state.empty() ? "" : ": " + images[i].state;
+        const std::string more = count(images.size() - i - 1);
+        const std::size_t taken = state.size() + more.size();
+        if (i == 0) {
+            text = shortened(shown_text(images[i].name), room - std::min(room, taken)) + state;
+            continue;
+        }
+        const std::string next = ", " + shown_text(images[i].name) + state;
+        if (text.size() + next.size() + more.size() > room) return text + count(images.size() - i);
+        text += next;
+    }
+    return text;
+}
+
 }  // namespace
 
 void TimeLeft::add(const std::optional<double>& estimate) {
@@ -44,23 +74,30 @@ void TimeLeft::add(const std::optional<double>& estimate) {
         ++unknown_to_come_;
 }
 
-void TimeLeft::begin(const std::optional<double>& estimate) {
+void TimeLeft::begin(std::size_t index, const std::optional<double>& estimate, double share) {
     if (estimate)
         to_come_ = std::max(0.0, to_come_ - *estimate);
     else if (unknown_to_come_ > 0)
         --unknown_to_come_;
-    current_ = estimate;
-    has_current_ = true;
+    under_way_[index] = {.estimate = estimate, .share = share};
 }
 
-void TimeLeft::end(const std::optional<double>& seconds) {
-    has_current_ = false;
+void TimeLeft::follow(std::size_t index, double seconds, double fraction) {
+    UnderWay& image = under_way_.at(index);
+    image.seconds = seconds;
+    image.fraction = fraction;
+}
+
+void TimeLeft::end(std::size_t index, const std::optional<double>& seconds) {
+    const UnderWay image = under_way_.at(index);
+    under_way_.erase(index);
     if (!seconds) return;
+    const double with_all_threads = *seconds * image.share;
     ++finished_;
-    all_finished_seconds_ += *seconds;
-    if (!current_) return;
-    finished_estimates_ += *current_;
-    finished_seconds_ += *seconds;
+    all_finished_seconds_ += with_all_threads;
+    if (!image.estimate) return;
+    finished_estimates_ += *image.estimate;
+    finished_seconds_ += with_all_threads;
 }
 
 std::optional<double> TimeLeft::expected(const std::optional<double>& estimate) const {
@@ -69,34 +106,38 @@ std::optional<double> TimeLeft::expected(const std::optional<double>& estimate) 
     return std::nullopt;
 }
 
-std::optional<double> TimeLeft::left(double seconds, double fraction) const {
+std::optional<double> TimeLeft::left() const {
     double sum = expected(to_come_).value_or(0.0);
-    std::optional<double> current = has_current_ ? expected(current_) : std::nullopt;
-    if (has_current_ && fraction > kLeastFraction) current = seconds / fraction;
-    if (has_current_ && !current) return std::nullopt;
-    if (has_current_) sum += std::max(0.0, *current - seconds);
-    if (unknown_to_come_ == 0) return sum;
-    const std::optional<double> each = finished_ > 0 ? expected(std::nullopt) : current;
-    if (!each) return std::nullopt;
-    return sum + *each * static_cast<double>(unknown_to_come_);
+    double longest = 0.0;  // nothing ends before the image that takes longest
+    const std::optional<double> mean = expected(std::nullopt);
+    double each = mean.value_or(0.0);  // of those to come without an estimate
+    bool knows_each = mean.has_value();
+    for (const auto& [index, image] : under_way_) {
+        std::optional<double> whole = expected(image.estimate);
+        if (image.fraction > kLeastFraction) whole = image.seconds / image.fraction * image.share;
+        if (!whole) return std::nullopt;
+        const double rest = std::max(0.0, *whole - image.seconds * image.share);
+        sum += rest;
+        longest = std::max(longest, rest / image.share);
+        if (!knows_each) each = *whole;
+        knows_each = true;
+    }
+    if (unknown_to_come_ == 0) return std::max(sum, longest);
+    if (!knows_each) return std::nullopt;
+    return std::max(sum + each * static_cast<double>(unknown_to_come_), longest);
 }
 
 std::string format_line(const BatchProgressLine& line, int width) {
     const std::string before = line.failed > 0 ? fmt::format("[{}/{}, {} failed] ", line.done, line.of, line.failed)
                                                : fmt::format("[{}/{}] ", line.done, line.of);
-    std::string after =
-        fmt::format("{}{}  {} elapsed", line.state.empty() ? "" : ": ", line.state, format_duration(line.elapsed));
+    std::string after = fmt::format("  {} elapsed", format_duration(line.elapsed));
     if (line.left) {
         const auto left = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::duration<double>(*line.left));
         after +=
             fmt::format(", {} left, ends {}", format_duration(*line.left), format_clock(line.now + left, line.now));
     }
     const auto room = static_cast<std::size_t>(std::max(0, width - static_cast<int>(before.size() + after.size())));
-    constexpr std::string_view kCut = "...";
-    std::string name = shown_text(line.current);
-    if (name.size() > room)
-        name = room > kCut.size() ? std::string(kCut) + std::string(last_characters(name, room - kCut.size())) : "";
-    std::string text = before + name + after;
+    const std::string text = before + under_way_text(line.under_way, room) + after;
     return std::string(first_characters(text, static_cast<std::size_t>(std::max(width, 0))));
 }
 

@@ -6,51 +6,65 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace etendue {
 
-/// Estimates how long the rest of a batch takes; times of images that have finished correct the estimates.
+/// Estimates how long the rest of a batch takes; times of images that have finished correct the estimates, which are
+/// of images that have all threads.
 class TimeLeft {
   public:
     /// Adds an image that is to be made, with its estimate in seconds; none if nothing is known of it.
     void add(const std::optional<double>& estimate);
-    /// Begins the next image, which is no more among those to come.
-    void begin(const std::optional<double>& estimate);
-    /// Ends the image that was begun, after so many seconds; none if that says nothing of the others, as when it
-    /// failed.
-    void end(const std::optional<double>& seconds);
+    /// Begins the image `index`, which is no more among those to come, with `share` of the threads, (0, 1].
+    void begin(std::size_t index, const std::optional<double>& estimate, double share);
+    /// Notes that the image, which was begun, has taken so many seconds, and what fraction of it is done.
+    void follow(std::size_t index, double seconds, double fraction);
+    /// Ends the image after so many seconds; none if that says nothing of the others, as when it failed.
+    void end(std::size_t index, const std::optional<double>& seconds);
 
-    /// Returns the seconds until all is done, with `seconds` and `fraction` of the image that was begun; none if
-    /// nothing is known.
-    [[nodiscard]] std::optional<double> left(double seconds, double fraction) const;
+    /// Returns the seconds until all is done; none if nothing is known.
+    [[nodiscard]] std::optional<double> left() const;
 
   private:
+    struct UnderWay {
+        std::optional<double> estimate{};
+        double share = 1.0;
+        double seconds = 0.0;
+        double fraction = 0.0;
+    };
+    /// Returns the seconds that an image of this estimate takes with all threads.
     [[nodiscard]] std::optional<double> expected(const std::optional<double>& estimate) const;
 
     double to_come_ = 0.0;             ///< sum of the estimates
     std::size_t unknown_to_come_ = 0;  ///< images to come without an estimate
-    bool has_current_ = false;
-    std::optional<double> current_{};  ///< estimate of the image under way
-    double finished_estimates_ = 0.0;  ///< estimates of finished images that have one
-    double finished_seconds_ = 0.0;    ///< seconds of finished images that have an estimate
-    double all_finished_seconds_ = 0.0;
+    std::map<std::size_t, UnderWay> under_way_{};
+    double finished_estimates_ = 0.0;    ///< estimates of finished images that have one
+    double finished_seconds_ = 0.0;      ///< seconds of finished images that have an estimate, with all threads
+    double all_finished_seconds_ = 0.0;  ///< seconds of all finished images, with all threads
     std::size_t finished_ = 0;
 };
 
 /// Holds what the line of progress shows.
 struct BatchProgressLine {
+    /// Names an image under way, or what else is done, with how far that is: "43%", "load".
+    struct UnderWay {
+        std::string name{};
+        std::string state{};
+    };
     std::size_t done = 0;
     std::size_t failed = 0;  ///< images of `done` that failed
     std::size_t of = 0;
-    std::string current{};  ///< name of the image under way, or what else is done
-    std::string state{};    ///< state of that image: "43%", "load"
-    double elapsed = 0.0;   ///< seconds of the batch
+    std::vector<UnderWay> under_way{};  ///< from the one that was begun first on
+    double elapsed = 0.0;               ///< seconds of the batch
     std::optional<double> left{};
     std::chrono::system_clock::time_point now{};  ///< time of day, from which that of the end is told
 };
-/// Formats the line of progress in `width` characters at most; a name that is too long loses its beginning.
+/// Formats the line of progress in `width` characters at most: the first name may lose its beginning, and images for
+/// which there is no room are counted.
 [[nodiscard]] std::string format_line(const BatchProgressLine& line, int width);
 
 /// Returns the local time of day, "23:40", with the weekday or the date if it is not the day of `now`.

@@ -1,10 +1,12 @@
 #include "batch/batch_runner.h"
 
 #include "batch/batch_statistics.h"
+#include "core/byte_size.h"
 #include "core/log.h"
 #include "core/process_time.h"
 #include "core/write_file.h"
 #include "output/software_name.h"
+#include "process/memory_left.h"
 #include "process/process_owner.h"
 #include "session/checkpoint_files.h"
 #include "session/exit_code.h"
@@ -29,6 +31,9 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
+
+/// Pause after which it is looked again at what other processes make.
+constexpr std::chrono::milliseconds kBetweenLooksAtHeld(500);
 
 /// Returns what is known of a unit before it was looked at.
 BatchUnit unknown_unit(const BatchTask& task, const BatchOptions& options) {
@@ -84,7 +89,8 @@ BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tas
       progress_(progress),
       watcher_(watcher),
       books_(options.output),
-      locks_(options.output) {
+      locks_(options.output),
+      jobs_(1) {
     if (options.in_process) threads_.emplace(options.threads);
     fs::path output = fs::absolute(options.output).lexically_normal();
     if (!output.has_filename()) output = output.parent_path();
@@ -95,6 +101,8 @@ BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tas
     report_.started = utc_time();
     report_.host = this_process().host;
     report_.threads = options.threads > 0 ? options.threads : ThreadPool(0).thread_count();
+    jobs_ = options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : usual_jobs(report_.threads);
+    report_.jobs = static_cast<int>(jobs_);
     for (const BatchTask& task : tasks_) report_.units.push_back(unknown_unit(task, options_));
     write_reports(true);
 }
@@ -103,7 +111,7 @@ const BatchPlan& BatchRunner::plan() {
     std::size_t reported = 0;
     plan_ = make_plan(std::move(tasks_), options_, history_,
                       [&](const std::string& what, const BatchPlan& so_far, std::size_t of) {
-                          progress_.update({.done = so_far.size(), .of = of, .current = what, .state = "planning"});
+                          progress_.update({.done = so_far.size(), .of = of, .under_way = {{what, "planning"}}});
                           for (; reported < so_far.size(); ++reported)
                               report_.units[reported] = planned_unit(so_far[reported], options_);
                           write_reports(false);
@@ -137,21 +145,30 @@ void BatchRunner::abandon() {
 
 void BatchRunner::run() {
     report_.state = BatchState::Running;
-    report_.seconds_left = time_left_.left(0.0, 0.0);
+    report_.seconds_left = time_left_.left();
     books_.append({.kind = LedgerEventKind::BatchStarted, .units = plan_.size()});
-    std::vector<std::size_t> pending;
+    std::deque<std::size_t> waiting;
     for (std::size_t i = 0; i < plan_.size(); ++i)
         if (plan_[i].is_stale())
-            pending.push_back(i);
+            waiting.push_back(i);
         else
             remove_checkpoints(i);
-    while (!pending.empty() && !interrupt_requested()) {
-        std::vector<std::size_t> held;
-        for (const std::size_t index : pending)
-            if (interrupt_requested() || !work_on(index)) held.push_back(index);
-        // What others make is looked at again once there is nothing else to do.
-        if (held.size() == pending.size()) wait_for_others(held);
-        pending = std::move(held);
+    std::vector<std::size_t> held;
+    Clock::time_point looked_at_held = Clock::now();
+    while (true) {
+        begin_images(waiting, held);
+        if (!work_.empty())
+            look_after_work(held);
+        else if (interrupt_requested() || (waiting.empty() && held.empty()))
+            break;
+        else if (waiting.empty())
+            wait_for_others(held);
+        // What others make is looked at again once nothing else waits.
+        if (waiting.empty() && Clock::now() - looked_at_held >= kBetweenLooksAtHeld) {
+            waiting.assign(held.begin(), held.end());
+            held.clear();
+            looked_at_held = Clock::now();
+        }
     }
     progress_.clear();
     report_.interrupted = interrupt_requested();
@@ -183,46 +200,111 @@ void BatchRunner::remove_checkpoints(std::size_t index) {
     }
 }
 
-bool BatchRunner::work_on(std::size_t index) {
+void BatchRunner::begin_images(std::deque<std::size_t>& waiting, std::vector<std::size_t>& held) {
+    while (work_.size() < jobs_ && !waiting.empty() && !interrupt_requested() && has_room_for(waiting.front())) {
+        const int threads = threads_for(waiting);
+        const std::size_t index = waiting.front();
+        waiting.pop_front();
+        switch (begin(index, threads)) {
+            case Beginning::UnderWay:
+                break;
+            case Beginning::Over:
+                ++done_;
+                write_reports(false);
+                break;
+            case Beginning::Elsewhere:
+                held.push_back(index);
+        }
+    }
+}
+
+std::vector<JobShare> BatchRunner::shares() const {
+    std::vector<JobShare> shares;
+    for (const auto& work : work_)
+        shares.push_back({.need = memory_need(plan_[work->index], options_),
+                          .has = work->attempt ? work->attempt->memory_bytes() : 0,
+                          .threads = work->threads});
+    return shares;
+}
+
+std::uint64_t BatchRunner::memory_left_now() const {
+    return memory_left(shares(), free_memory_bytes(), options_.jobs_memory);
+}
+
+bool BatchRunner::has_room_for(std::size_t index) {
+    // One by itself may have all that there is: nothing would be won by waiting.
+    if (work_.empty()) return true;
+    const std::uint64_t need = memory_need(plan_[index], options_);
+    const std::uint64_t left = memory_left_now();
+    if (need <= left) return true;
+    if (!std::exchange(has_waited_for_memory_, true))
+        progress_.say(fmt::format(
+            "{}: waits for memory, as others will: {}, and there are {} beside what is rendered",
+            report_.units[index].name,
+            need == kAllMemory ? "nobody knows how much it needs" : fmt::format("it may need {}B", to_byte_size(need)),
+            to_byte_size(left) + "B"));
+    return false;
+}
+
+int BatchRunner::threads_for(const std::deque<std::size_t>& waiting) const {
+    if (jobs_ == 1) return report_.threads;
+    std::vector<std::uint64_t> needs;
+    for (std::size_t i = 0; i < std::min(waiting.size(), jobs_); ++i)
+        needs.push_back(memory_need(plan_[waiting[i]], options_));
+    return threads_of_next(shares(), needs, memory_left_now(), jobs_, report_.threads);
+}
+
+BatchRunner::Beginning BatchRunner::begin(std::size_t index, int threads) {
     BatchUnit& unit = report_.units[index];
     const PlannedUnit& planned = plan_[index];
     unit.error.clear();  // what was foreseen is found out now
-    time_left_.begin(planned.error.empty() ? planned.estimated_seconds : 0.0);
-    bool is_over = true;
+    const auto all = static_cast<double>(std::max(static_cast<std::size_t>(report_.threads), jobs_));
+    time_left_.begin(index, planned.error.empty() ? planned.estimated_seconds : 0.0, threads / all);
     try {
         if (invalid_scenes_.contains(planned.task.job.scene)) {
             give_up(index);
-        } else if (LockAttempt got = locks_.take(planned.task.id); got.lock) {
-            is_over = work_under(*got.lock, index);
-        } else {
-            unit.outcome = UnitOutcome::RunningElsewhere;
-            unit.host = got.holder.str();
-            is_over = false;
+            return Beginning::Over;
         }
+        LockAttempt got = locks_.take(planned.task.id);
+        if (got.lock) return begin_under(std::move(*got.lock), index, threads);
+        unit.host = got.holder.str();
+        leave_to_others(index);
+        return Beginning::Elsewhere;
     } catch (const std::exception& error) {
         // Without the lock, the ledger is not told: what becomes of the image is its owner's to say.
         finish(index, {.end = AttemptEnd::Failed, .error = error.what()}, 0.0);
+        return Beginning::Over;
     }
-    if (is_over) {
-        ++done_;
-        write_reports(false);
-    } else {
-        if (unit.outcome == UnitOutcome::Running) unit.outcome = UnitOutcome::RunningElsewhere;
-        time_left_.end(std::nullopt);
-        time_left_.add(planned.error.empty() ? planned.estimated_seconds : 0.0);
-    }
-    return is_over;
 }
 
-bool BatchRunner::work_under(BatchLock& lock, std::size_t index) try {
-    if (was_made_elsewhere(index, lock)) return true;
-    fs::create_directories(plan_[index].task.job.output.parent_path());
-    return make(index, lock);
-} catch (const std::exception& error) {
-    const Attempt failure{.end = AttemptEnd::Failed, .error = error.what()};
+BatchRunner::Beginning BatchRunner::begin_under(BatchLock lock, std::size_t index, int threads) {
+    auto work = std::make_unique<Work>(Work{.index = index, .lock = std::move(lock), .threads = threads});
+    try {
+        if (was_made_elsewhere(index, work->lock)) return Beginning::Over;
+        fs::create_directories(plan_[index].task.job.output.parent_path());
+        const bool is_forced = plan_[index].reason == kForced;
+        work->how = {.resume = !is_forced, .force = is_forced};
+        report_.units[index].host = report_.host;
+        const Beginning beginning = make(*work);
+        if (beginning == Beginning::UnderWay) work_.push_back(std::move(work));
+        return beginning;
+    } catch (const std::exception& error) {
+        fail(index, error.what());
+        return Beginning::Over;
+    }
+}
+
+void BatchRunner::fail(std::size_t index, const std::string& error) {
+    const Attempt failure{.end = AttemptEnd::Failed, .error = error};
     end_record(index, failure, 0.0, false);
     finish(index, failure, 0.0);
-    return true;
+}
+
+void BatchRunner::leave_to_others(std::size_t index) {
+    const PlannedUnit& planned = plan_[index];
+    report_.units[index].outcome = UnitOutcome::RunningElsewhere;
+    time_left_.end(index, std::nullopt);
+    time_left_.add(planned.error.empty() ? planned.estimated_seconds : 0.0);
 }
 
 bool BatchRunner::was_made_elsewhere(std::size_t index, const BatchLock& lock) {
@@ -248,7 +330,7 @@ bool BatchRunner::was_made_elsewhere(std::size_t index, const BatchLock& lock) {
     }
     unit.outcome = UnitOutcome::UpToDate;
     read_statistics(statistics, unit);
-    time_left_.end(std::nullopt);
+    time_left_.end(index, std::nullopt);
     // Its owner died between the last of the files and the ledger.
     history_.read_new();
     const LedgerHistory::Entry* const last = history_.find(planned.task.id);
@@ -266,77 +348,109 @@ std::string BatchRunner::failure_in_words(const Attempt& attempt) const {
     return attempt.was_said && !options_.quiet ? "failed" : "failed: " + attempt.error;
 }
 
-bool BatchRunner::make(std::size_t index, BatchLock& lock) {
-    const PlannedUnit& planned = plan_[index];
-    BatchUnit& unit = report_.units[index];
-    unit.host = report_.host;
-    const bool is_forced = planned.reason == kForced;
-    AttemptOptions how{.resume = !is_forced, .force = is_forced};
-    int retries = 0;
+BatchRunner::Beginning BatchRunner::make(Work& work) {
     while (true) {
-        ++unit.attempts;
-        begin_record(index, lock);
-        const Clock::time_point start = Clock::now();
-        unit.outcome = UnitOutcome::Running;
-        write_reports(false);
-        Attempt result = attempt(index, how, lock);
-        if (result.end == AttemptEnd::Done && options_.denoise) result = denoise(index, lock);
-        unit.fraction.reset();
-        unit.seconds_left.reset();
-        const double seconds = seconds_since(start);
-        if (result.end == AttemptEnd::LockLost) return false;
-        const bool is_refused = was_refused(result);
-        const bool again =
-            !interrupt_requested() && (is_refused || (result.end == AttemptEnd::Failed && retries < options_.retries));
-        end_record(index, result, seconds, again);
-        if (!again) {
-            finish(index, result, seconds);
-            return true;
+        const std::optional<Attempt> ended = start_attempt(work);
+        if (!ended) return Beginning::UnderWay;
+        if (const std::optional<Beginning> end = conclude(work, *ended)) return *end;
+    }
+}
+
+std::optional<Attempt> BatchRunner::start_attempt(Work& work) {
+    BatchUnit& unit = report_.units[work.index];
+    const BatchTask& task = plan_[work.index].task;
+    ++unit.attempts;
+    begin_record(work.index, work.lock);
+    work.start = Clock::now();
+    unit.outcome = UnitOutcome::Running;
+    write_reports(false);
+    if (!options_.in_process) {
+        const int threads = options_.threads > 0 || jobs_ > 1 ? work.threads : 0;
+        work.attempt = std::make_unique<ChildAttempt>(task, options_, work.how, threads);
+        return std::nullopt;
+    }
+    progress_.clear();
+    return attempt_here(
+        task, options_, work.how, fmt::format("[{}/{}] {}", done_ + 1, stale_, task.job.name),
+        [&] {
+            // Nothing else touches the report while the image is rendered.
+            write_reports(false);
+            return work.lock.keep_alive();
+        },
+        *threads_);
+}
+
+std::optional<BatchRunner::Beginning> BatchRunner::conclude(Work& work, const Attempt& result) {
+    BatchUnit& unit = report_.units[work.index];
+    unit.fraction.reset();
+    unit.seconds_left.reset();
+    const double seconds = seconds_since(work.start);
+    if (result.end == AttemptEnd::LockLost) {
+        leave_to_others(work.index);
+        return Beginning::Elsewhere;
+    }
+    const bool is_refused = was_refused(result);
+    const bool again =
+        !interrupt_requested() && (is_refused || (result.end == AttemptEnd::Failed && work.retries < options_.retries));
+    end_record(work.index, result, seconds, again);
+    if (!again) {
+        finish(work.index, result, seconds);
+        return Beginning::Over;
+    }
+    if (!is_refused) ++work.retries;
+    work.how.resume = !is_refused;
+    progress_.say(fmt::format("{}: {}; {}", unit.name, failure_in_words(result),
+                              is_refused ? "begins anew without the checkpoint"
+                                         : fmt::format("tries again ({} of {})", work.retries, options_.retries)));
+    return std::nullopt;
+}
+
+void BatchRunner::look_after_work(std::vector<std::size_t>& held) {
+    std::vector<const ChildAttempt*> attempts;
+    for (const auto& work : work_) attempts.push_back(work->attempt.get());
+    ChildAttempt::wait_for_any(attempts);
+    pass_on_preview_request();
+    std::vector<BatchProgressLine::UnderWay> under_way;
+    for (auto& work : work_) {
+        const std::size_t index = work->index;
+        Beginning now = Beginning::UnderWay;
+        try {
+            const bool goes_on = work->attempt->go_on(
+                {.on_message = [&](const std::string& line) { pass_on(plan_[index].task.job, line); },
+                 .on_progress = [&](const ChildProgress& progress) { work->progress = progress; },
+                 .keep_alive = [&] { return work->lock.keep_alive(); }});
+            if (goes_on)
+                follow(*work);
+            else if (const std::optional<Beginning> end = conclude(*work, work->attempt->result()))
+                now = *end;
+            else
+                now = make(*work);
+        } catch (const std::exception& error) {
+            fail(index, error.what());
+            now = Beginning::Over;
         }
-        if (!is_refused) ++retries;
-        how = {.resume = !is_refused, .force = is_forced};
-        progress_.say(fmt::format("{}: {}; {}", unit.name, failure_in_words(result),
-                                  is_refused ? "begins anew without the checkpoint"
-                                             : fmt::format("tries again ({} of {})", retries, options_.retries)));
+        if (now == Beginning::UnderWay) continue;
+        work.reset();
+        if (now == Beginning::Elsewhere) held.push_back(index);
+        if (now == Beginning::Over) ++done_;
     }
+    std::erase(work_, nullptr);
+    for (const auto& work : work_) {
+        const ChildProgress& progress = work->progress;
+        const double percent = std::floor(progress.fraction * 100.0);
+        under_way.push_back({report_.units[work->index].name,
+                             progress.phase == "render" ? fmt::format("{:.0f}%", percent) : progress.phase});
+    }
+    if (!under_way.empty()) show(std::move(under_way));
+    write_reports(false);
 }
 
-Attempt BatchRunner::attempt(std::size_t index, const AttemptOptions& how, BatchLock& lock) {
-    const BatchTask& task = plan_[index].task;
-    if (options_.in_process) {
-        progress_.clear();
-        return attempt_here(
-            task, options_, how, fmt::format("[{}/{}] {}", done_ + 1, stale_, task.job.name),
-            [&] {
-                // Nothing else touches the report while the image is rendered.
-                write_reports(false);
-                return lock.keep_alive();
-            },
-            *threads_);
-    }
-    const Clock::time_point start = Clock::now();
-    ChildProgress last{.phase = "start"};
-    const AttemptCallbacks callbacks{.on_message = [&](const std::string& line) { pass_on(task.job, line); },
-                                     .on_progress = [&](const ChildProgress& progress) { last = progress; },
-                                     .keep_alive =
-                                         [&] {
-                                             follow(index, last, seconds_since(start));
-                                             return lock.keep_alive();
-                                         }};
-    return attempt_in_child(task, options_, how, callbacks);
-}
-
-Attempt BatchRunner::denoise(std::size_t index, BatchLock& lock) {
-    const BatchTask& task = plan_[index].task;
-    const Clock::time_point start = Clock::now();
-    return denoise_in_child(task, options_,
-                            {.on_message = [&](const std::string& line) { pass_on(task.job, line); },
-                             .on_progress = [](const ChildProgress&) {},
-                             .keep_alive =
-                                 [&] {
-                                     follow(index, {.phase = "denoise"}, seconds_since(start));
-                                     return lock.keep_alive();
-                                 }});
+void BatchRunner::pass_on_preview_request() {
+    if (!preview_requested()) return;
+    bool is_shown = false;
+    for (const auto& work : work_) is_shown = work->attempt->show_preview() || is_shown;
+    // Until one renders, there is nothing to show.
+    if (is_shown) clear_preview_request();
 }
 
 void BatchRunner::pass_on(const ImageJob& job, const std::string& line) {
@@ -347,12 +461,14 @@ void BatchRunner::pass_on(const ImageJob& job, const std::string& line) {
     progress_.say(fmt::format("{}: {}", job.name, line));
 }
 
-void BatchRunner::follow(std::size_t index, const ChildProgress& now, double seconds) {
+void BatchRunner::follow(const Work& work) {
     constexpr double kLeastFraction = 0.02;
-    BatchUnit& unit = report_.units[index];
+    BatchUnit& unit = report_.units[work.index];
+    const ChildProgress& now = work.progress;
+    const double seconds = seconds_since(work.start);
     const bool renders = now.phase == "render";
     const double fraction = renders ? now.fraction : 0.0;
-    show(unit.name, renders ? fmt::format("{:.0f}%", std::floor(fraction * 100.0)) : now.phase, seconds, fraction);
+    time_left_.follow(work.index, seconds, fraction);
     if (renders) {
         unit.fraction = fraction;
         const std::uint64_t pixels = static_cast<std::uint64_t>(unit.width) * static_cast<std::uint64_t>(unit.height);
@@ -361,8 +477,7 @@ void BatchRunner::follow(std::size_t index, const ChildProgress& now, double sec
     if (fraction > kLeastFraction)
         unit.seconds_left = now.seconds * (1.0 - fraction) / fraction;
     else if (unit.estimated_seconds)
-        unit.seconds_left = std::max(0.0, *unit.estimated_seconds - seconds);
-    write_reports(false);
+        unit.seconds_left = std::max(0.0, *unit.estimated_seconds * report_.threads / work.threads - seconds);
 }
 
 void BatchRunner::begin_record(std::size_t index, const BatchLock& lock) {
@@ -380,6 +495,7 @@ void BatchRunner::give_up(std::size_t index) {
     unit.outcome = UnitOutcome::NotStarted;
     unit.error = "not tried: another image of the scene has shown that it is invalid";
     ++not_tried_;
+    time_left_.end(index, std::nullopt);
     books_.append({.kind = LedgerEventKind::UnitNotTried,
                    .unit = plan_[index].task.id,
                    .scene = unit.scene,
@@ -408,7 +524,7 @@ void BatchRunner::finish(std::size_t index, const Attempt& result, double second
     BatchUnit& unit = report_.units[index];
     unit.signal = result.signal;
     unit.log = result.log;
-    time_left_.end(result.end == AttemptEnd::Done ? std::optional(seconds) : std::nullopt);
+    time_left_.end(index, result.end == AttemptEnd::Done ? std::optional(seconds) : std::nullopt);
     switch (result.end) {
         case AttemptEnd::Done:
             unit.outcome = UnitOutcome::Rendered;
@@ -433,25 +549,23 @@ void BatchRunner::finish(std::size_t index, const Attempt& result, double second
     progress_.say_error(fmt::format("[{}/{}] {}: {}", done_ + 1, stale_, unit.name, failure_in_words(result)));
 }
 
-void BatchRunner::show(const std::string& name, const std::string& state, double seconds, double fraction) {
-    report_.seconds_left = time_left_.left(seconds, fraction);
+void BatchRunner::show(std::vector<BatchProgressLine::UnderWay> under_way) {
+    report_.seconds_left = time_left_.left();
     progress_.update({.done = done_,
                       .failed = failed_,
                       .of = stale_,
-                      .current = name,
-                      .state = state,
+                      .under_way = std::move(under_way),
                       .left = report_.seconds_left});
 }
 
 void BatchRunner::wait_for_others(const std::vector<std::size_t>& held) {
-    constexpr std::chrono::milliseconds kBetweenTries(500);
     const BatchUnit& first = report_.units[held.front()];
     if (!std::exchange(has_waited_, true))
         progress_.say(fmt::format("waiting for what other batch processes make: {} by {}{}", first.name, first.host,
                                   held.size() > 1 ? fmt::format(", and {} more", held.size() - 1) : ""));
-    show(first.name, "made by " + first.host, 0.0, 0.0);
+    show({{first.name, "made by " + first.host}});
     write_reports(false);
-    ::poll(nullptr, 0, static_cast<int>(kBetweenTries.count()));
+    ::poll(nullptr, 0, static_cast<int>(kBetweenLooksAtHeld.count()));
 }
 
 void BatchRunner::write_reports(bool in_any_case) {

@@ -1,8 +1,10 @@
-// A batch at work: image after image, each under its lock, beside other processes that do the same.
+// A batch at work: image after image, or several at the same time, each under its lock, beside other processes that do
+// the same.
 #pragma once
 
 #include "batch/batch_attempt.h"
 #include "batch/batch_books.h"
+#include "batch/batch_jobs.h"
 #include "batch/batch_ledger.h"
 #include "batch/batch_lock.h"
 #include "batch/batch_options.h"
@@ -14,8 +16,11 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -48,20 +53,54 @@ class BatchRunner {
     /// Removes the checkpoints of an image that is up to date: a render that was killed after its image was complete
     /// has left them.
     void remove_checkpoints(std::size_t index);
-    /// Works on an image; returns false if another process has the image now.
-    bool work_on(std::size_t index);
-    /// Works on an image under its lock; returns false if the lock was lost.
-    bool work_under(BatchLock& lock, std::size_t index);
+    /// Says what became of an image that was to begin.
+    enum class Beginning {
+        UnderWay,
+        Over,       ///< it is made, or cannot be
+        Elsewhere,  ///< another process has it now
+    };
+    /// Begins waiting images for as long as there is room for them; `held` gets those that other processes have.
+    void begin_images(std::deque<std::size_t>& waiting, std::vector<std::size_t>& held);
+    /// Returns whether the memory that is left holds one more image; if not, says so once.
+    bool has_room_for(std::size_t index);
+    /// Returns how many threads the image gets that is the first of `waiting`.
+    [[nodiscard]] int threads_for(const std::deque<std::size_t>& waiting) const;
+    [[nodiscard]] std::vector<JobShare> shares() const;
+    [[nodiscard]] std::uint64_t memory_left_now() const;
+    Beginning begin(std::size_t index, int threads);
+    Beginning begin_under(BatchLock lock, std::size_t index, int threads);
     /// Returns whether another process has made the image, or failed to, since this one looked at it last.
     bool was_made_elsewhere(std::size_t index, const BatchLock& lock);
     /// Passes on what a process says about an image, but for notes and warnings that its scene has had already.
     void pass_on(const ImageJob& job, const std::string& line);
+
+    /// An image under way.
+    struct Work {
+        std::size_t index = 0;
+        BatchLock lock;
+        int threads = 0;
+        AttemptOptions how{};
+        int retries = 0;
+        std::chrono::steady_clock::time_point start{};  ///< start of the attempt
+        ChildProgress progress{};
+        std::unique_ptr<ChildAttempt> attempt{};  ///< none if the image is rendered in this process
+    };
+    /// Waits for what is under way to go on; `held` gets images whose locks are lost.
+    void look_after_work(std::vector<std::size_t>& held);
+    /// Makes an attempt, or begins one in a process of its own; returns how it ended, if it has.
+    std::optional<Attempt> start_attempt(Work& work);
+    /// Tries for as long as attempts end at once and there is hope.
+    Beginning make(Work& work);
+    /// Records how an attempt has ended; nothing if another is to be made.
+    std::optional<Beginning> conclude(Work& work, const Attempt& result);
+    /// Ends an image that failed for another reason than its attempts.
+    void fail(std::size_t index, const std::string& error);
+    /// Notes that another process has the image.
+    void leave_to_others(std::size_t index);
     /// Tells what a process does that makes an image.
-    void follow(std::size_t index, const ChildProgress& now, double seconds);
-    /// Tries until the image is made, or there is no more hope; returns false if the lock was lost.
-    bool make(std::size_t index, BatchLock& lock);
-    Attempt attempt(std::size_t index, const AttemptOptions& how, BatchLock& lock);
-    Attempt denoise(std::size_t index, BatchLock& lock);
+    void follow(const Work& work);
+    void pass_on_preview_request();
+
     /// Says why an attempt failed; what its process has said itself is not said again, unless `quiet`.
     [[nodiscard]] std::string failure_in_words(const Attempt& attempt) const;
     void begin_record(std::size_t index, const BatchLock& lock);
@@ -70,7 +109,7 @@ class BatchRunner {
     void end_record(std::size_t index, const Attempt& attempt, double seconds, bool again);
     void finish(std::size_t index, const Attempt& attempt, double seconds);
 
-    void show(const std::string& name, const std::string& state, double seconds, double fraction);
+    void show(std::vector<BatchProgressLine::UnderWay> under_way);
     void wait_for_others(const std::vector<std::size_t>& held);
     /// Writes the report as it is now, if that is due or `in_any_case`.
     void write_reports(bool in_any_case);
@@ -87,6 +126,8 @@ class BatchRunner {
     std::optional<ThreadPool> threads_{};  ///< if images are rendered in this process
     BatchReport report_{};
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::size_t jobs_;  ///< images that may be under way at the same time
+    std::vector<std::unique_ptr<Work>> work_{};
     TimeLeft time_left_{};
     std::set<std::filesystem::path> invalid_scenes_{};
     std::map<std::filesystem::path, std::set<std::string>> said_{};  ///< lines about each scene
@@ -94,7 +135,8 @@ class BatchRunner {
     std::size_t done_ = 0;  ///< images of the stale ones that are done
     std::size_t failed_ = 0;
     std::size_t not_tried_ = 0;
-    bool has_waited_ = false;
+    bool has_waited_ = false;  ///< for others
+    bool has_waited_for_memory_ = false;
 };
 
 }  // namespace etendue

@@ -21,12 +21,14 @@
 #include "session/usage_error.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -106,7 +108,7 @@ ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, cons
                  BatchProgress& progress) {
     BatchPlan plan = make_plan(
         std::move(tasks), options, history, [&](const std::string& what, const BatchPlan& so_far, std::size_t of) {
-            progress.update({.done = so_far.size(), .of = of, .current = what, .state = "planning"});
+            progress.update({.done = so_far.size(), .of = of, .under_way = {{what, "planning"}}});
         });
     progress.clear();
     if (interrupt_requested()) {
@@ -126,6 +128,10 @@ ExitCode run_batch(const BatchOptions& options, const std::optional<int>& live) 
     const bool needs_times = options.order == BatchOrder::Shortest || options.order == BatchOrder::Longest;
     if (needs_times && options.no_probe)
         throw UsageError("--order: the shortest and the longest are known by the estimates that --no-probe leaves out");
+    if (options.jobs != 1 && options.no_probe && !options.max_memory)
+        throw UsageError(
+            "--jobs: how much memory an image needs is not known with --no-probe: leave that out, or give "
+            "--max-memory");
     BatchProgress progress(options.quiet, options.log);
     const auto look = [&](const fs::path& scene) { return find_names(scene, options); };
     std::vector<BatchTask> tasks = collect_tasks(options, look);
@@ -165,14 +171,34 @@ ExitCode run_batch(const BatchOptions& options, const std::optional<int>& live) 
     return code;
 }
 
+/// Reads how many images are rendered at the same time; 0 for "auto".
+int parse_jobs(const std::string& text) {
+    constexpr int kMostJobs = 1024;
+    int jobs = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), jobs);
+    if (text == "auto") return 0;
+    if (error != std::errc() || end != text.data() + text.size() || jobs < 1 || jobs > kMostJobs)
+        throw CLI::ValidationError("--jobs",
+                                   fmt::format("'{}' is neither a number from 1 to {} nor auto", text, kMostJobs));
+    return jobs;
+}
+
+std::uint64_t parse_memory(const char* option, const std::string& text) {
+    const std::optional<std::uint64_t> bytes = parse_byte_size(text);
+    if (!bytes) throw CLI::ValidationError(option, fmt::format("'{}' is not {}", text, kByteSizeForm));
+    if (*bytes < kLeastMemoryLimit)
+        throw CLI::ValidationError(option, fmt::format("'{}' is less than {} MiB, which the program itself may need",
+                                                       text, kLeastMemoryLimit >> 20u));
+    return *bytes;
+}
+
 void add_own_options(CLI::App& command, BatchOptions& options) {
     command.add_option("dirs", options.roots, "Directories to look for scene directories in")
         ->required()
         ->check(CLI::ExistingDirectory);
     command.add_option("-o,--output", options.output, "Directory for the images; made if it does not exist")
-        ->required();
-    command.add_option("--threads", options.threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
+        ->required()
+        ->type_name("DIR");
     command.add_flag("--force", options.force, "Render again what is up to date");
     command.add_flag("--variants", options.all_variants,
                      "Render every set of materials that a scene's file offers (KHR_materials_variants) to an image of "
@@ -182,12 +208,14 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
             "--cameras", [&options](const std::string&) { options.all_cameras = true; },
             "all: render every camera of a scene to an image of its own, NAME.CAMERA.exr")
         ->check(CLI::IsMember({"all"}));
-    command.add_option("--name", options.name_pattern,
-                       "Pattern of the images' names below the output directory, without .exr, of {scene}, {variant}, "
-                       "{camera} and {frame}, such as {scene}/{camera}.{frame} (default: "
-                       "{scene}.{variant}.{camera}.{frame})");
+    command
+        .add_option("--name", options.name_pattern,
+                    "Pattern of the images' names below the output directory, without .exr, of {scene}, {variant}, "
+                    "{camera} and {frame}, such as {scene}/{camera}.{frame} (default: "
+                    "{scene}.{variant}.{camera}.{frame})")
+        ->type_name("PATTERN");
     const auto add_globs = [&](const char* name, std::vector<std::string>& globs, const char* help) {
-        command.add_option(name, globs, help)->allow_extra_args(false);
+        command.add_option(name, globs, help)->allow_extra_args(false)->type_name("GLOB");
     };
     add_globs("--only", options.only,
               "Make only images whose name, scene or folder matches this glob, such as 'shots/*' or '*.00[0-4]?'; may "
@@ -200,12 +228,28 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
             "Which images come first, by the estimates, by name, or by the time of a scene's newest file (default: by "
             "directory and scene)")
         ->check(CLI::IsMember(kOrders));
+    command.add_option("--threads", options.threads, "Threads to use (default: one per processor)")
+        ->check(CLI::Range(1, 4096));
+    auto* jobs =
+        command
+            .add_option_function<std::string>(
+                "-j,--jobs", [&options](const std::string& text) { options.jobs = parse_jobs(text); },
+                "Images to render at the same time, which share the threads; auto: one for every four threads. Another "
+                "one begins only if the memory that it may need is free (default: 1)")
+            ->type_name("N or auto");
+    command
+        .add_option_function<std::string>(
+            "--jobs-memory",
+            [&options](const std::string& text) { options.jobs_memory = parse_memory("--jobs-memory", text); },
+            "Memory that the images of --jobs may need together, such as 24G (default: what the machine has free)")
+        ->type_name("SIZE")
+        ->needs(jobs);
     command.add_flag("--denoise", options.denoise,
                      "Also write each image without its noise, NAME.denoised.exr and .png; adds --aov denoising");
     command.add_flag("--dry-run", options.dry_run,
                      "Print what would be rendered, why, for how long, and what would fail; write nothing");
     command.add_flag("--no-probe", options.no_probe,
-                     "No estimate of time, which takes a second for each scene that is stale");
+                     "No estimate of time and memory, which takes a second for each scene that is stale");
     command.add_option("--retries", options.retries, "Attempts after one that crashed or could not read or write")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
@@ -219,22 +263,20 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
                     "Minutes without any progress after which the render of an image counts as crashed; 0: never")
         ->check(real_range(0.0, 1e6))
         ->capture_default_str();
-    auto* in_process = command.add_flag("--in-process", options.in_process,
-                                        "Render in this process instead of one for each image: a crash ends all");
+    auto* in_process = command
+                           .add_flag("--in-process", options.in_process,
+                                     "Render in this process instead of one for each image: a crash ends all")
+                           ->excludes(jobs);
     command
         .add_option_function<std::string>(
             "--max-memory",
             [&options](const std::string& text) {
-                options.max_memory = parse_byte_size(text);
+                options.max_memory = parse_memory("--max-memory", text);
                 options.max_memory_text = text;
-                if (!options.max_memory)
-                    throw CLI::ValidationError("--max-memory", fmt::format("'{}' is not {}", text, kByteSizeForm));
-                if (*options.max_memory < kLeastMemoryLimit)
-                    throw CLI::ValidationError(
-                        "--max-memory", fmt::format("'{}' is less than {} MiB, which the program itself may need", text,
-                                                    kLeastMemoryLimit >> 20u));
             },
-            "Memory that the render of an image may take, such as 8G; one that needs more fails, the others go on")
+            "Memory that the render of an image may take, such as 8G; one that needs more fails, the others go on "
+            "(default: no limit)")
+        ->type_name("SIZE")
         ->excludes(in_process);
     command
         .add_flag_callback(
@@ -243,11 +285,15 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
             "take more than a minute)")
         ->excludes(command.add_flag_callback(
             "--no-keep-sums", [&options] { options.keep_sums_after.reset(); }, "Keep no sums of finished images"));
-    command.add_option("--log", options.log,
-                       "File to which every line of progress, notes and errors is appended, with its time");
-    command.add_option("--on-finish", options.on_finish,
-                       "Command for sh -c at the end of the batch; $ETENDUE_OUTPUT, $ETENDUE_EXIT_CODE, "
-                       "$ETENDUE_RENDERED, $ETENDUE_UP_TO_DATE and $ETENDUE_FAILED tell it what came of that");
+    command
+        .add_option("--log", options.log,
+                    "File to which every line of progress, notes and errors is appended, with its time")
+        ->type_name("FILE");
+    command
+        .add_option("--on-finish", options.on_finish,
+                    "Command for sh -c at the end of the batch; $ETENDUE_OUTPUT, $ETENDUE_EXIT_CODE, "
+                    "$ETENDUE_RENDERED, $ETENDUE_UP_TO_DATE and $ETENDUE_FAILED tell it what came of that")
+        ->type_name("COMMAND");
     command.add_flag("--quiet", options.quiet, "No progress, notes, warnings or summary; errors only");
     command.add_flag("--json", options.json, "Print the report, or with --dry-run the plan, as JSON on stdout");
 }
@@ -264,10 +310,11 @@ void add_batch_command(CLI::App& app, Action& action) {
     add_settings_options(*command, options->overrides);
     add_png_option(*command, options->overrides);
     set_group(*command, "Which images",
-              {"--variants", "--cameras", "--name", "--only", "--exclude", "--failed", "--force", "--order"});
+              {"--variants", "--cameras", "--name", "--only", "--exclude", "--failed", "--force", "--order",
+               "--dry-run", "--no-probe"});
     set_group(*command, "How they are made",
-              {"--threads", "--dry-run", "--no-probe", "--retries", "--checkpoint-every", "--stall-minutes",
-               "--in-process", "--max-memory", "--denoise", "--keep-sums", "--no-keep-sums"});
+              {"--threads", "--jobs", "--jobs-memory", "--max-memory", "--retries", "--checkpoint-every",
+               "--stall-minutes", "--in-process", "--denoise", "--keep-sums", "--no-keep-sums"});
     set_group(*command, "What is said", {"--live", "--log", "--on-finish", "--quiet", "--json"});
     for (const auto& [one, other] : {std::pair("--variants", "--variant"), std::pair("--cameras", "--camera"),
                                      std::pair("--denoise", "--in-process")})
@@ -284,6 +331,7 @@ void add_batch_command(CLI::App& app, Action& action) {
         "  etendue batch scenes -o out --quality draft\n"
         "  etendue batch scenes -o out --dry-run\n"
         "  etendue batch scenes -o out --live\n"
+        "  etendue batch scenes -o out --jobs 4\n"
         "  etendue batch shots/a shots/b -o /renders --spp 512 --force --max-memory 16G\n"
         "  etendue batch characters -o turntables --frames 0:47 --animation Walk\n"
         "  etendue batch products -o catalogue --variants --cameras all --name '{scene}/{variant}-{camera}'\n"

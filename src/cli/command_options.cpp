@@ -1,5 +1,8 @@
 #include "cli/command_options.h"
 
+#include "cli/settings_options.h"
+#include "core/log.h"
+
 #include <charconv>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +19,7 @@ constexpr const char* kFreePort = "free";
 std::vector<GivenOption> given_options(std::span<const CLI::Option* const> options) {
     std::vector<GivenOption> given;
     for (const CLI::Option* option : options) {
-        if (option->count() == 0) continue;
+        if (option->count() == 0 || option->get_group().empty()) continue;
         const std::string name = option->get_positional() ? "" : option->get_name();
         const bool is_flag = option->get_items_expected_max() == 0;
         if (is_flag)
@@ -50,8 +53,41 @@ std::optional<int> live_port(const std::string& live) {
     return is_port ? std::optional(port) : std::nullopt;
 }
 
+void add_tev_option(CLI::App& command, std::optional<TevAddress>& address, const std::string& help) {
+    command
+        .add_option_function<std::string>(
+            "--tev",
+            [&address](const std::string& text) {
+                address = TevAddress::parse(text);
+                if (!address) throw CLI::ValidationError("--tev", fmt::format("'{}' is no HOST:PORT", text));
+            },
+            help + " to the viewer tev that listens there (docs/live.md)")
+        ->type_name("HOST:PORT");
+}
+
 void set_group(CLI::App& command, const std::string& group, std::initializer_list<const char*> options) {
     for (const char* option : options) command.get_option(option)->group(group);
+}
+
+void add_old_name(CLI::App& command, const std::string& old_name, const std::string& name) {
+    CLI::Option* const option = command.get_option(name);
+    command
+        .add_option_function<std::string>(old_name,
+                                          [&command, option, old_name, name](const std::string& text) {
+                                              if (command.count("--quiet") == 0)
+                                                  log_info("note: {} is {} now", old_name, name);
+                                              // Whether this comes before or after the option's own callback, it then
+                                              // has what was given.
+                                              option->add_result(text);
+                                              option->run_callback();
+                                          })
+        ->group("");
+}
+
+void replace_time_option(CLI::App& command, std::optional<double>& seconds, const std::string& help) {
+    command.remove_option(command.get_option("--time"));
+    command.add_option("--time", seconds, help)->check(real_range(1e-3, 1e9));
+    add_old_name(command, "--seconds", "--time");
 }
 
 void hide_options(CLI::App& command, std::span<const OptionOfRender> options) {

@@ -399,10 +399,21 @@ ExitCode run_compare(const CompareArguments& arguments) {
     return report.agrees() ? ExitCode::Success : ExitCode::DiffFailed;
 }
 
+void set_compare_groups(CLI::App& command) {
+    set_group(command, "What is compared", {"--integrators", "--variant", "--time", "--wall", "--seeds", "--threads"});
+    set_group(command, "What errors are measured against",
+              {"--reference", "--reference-integrator", "--reference-time"});
+    set_group(command, "What is reported",
+              {"--region", "--insets", "--strategies-depth", "--keep-images", "--live", "--quiet", "--json"});
+    command.get_option("--spp")->description("Samples per pixel of each render, in place of --time");
+    command.get_option("--integrator")->description("Algorithm of the variants of --variant that name none");
+}
+
 void add_compare_options(CLI::App& command, CompareArguments& arguments) {
     add_scene_argument(command, arguments.scene);
     command
-        .add_option("-o,--output", arguments.output, "Directory for report.json and index.html; made if it is missing")
+        .add_option("-o,--output", arguments.output,
+                    "Directory for index.html, report.json, data.csv, tables.tex and plots; made if it is missing")
         ->required()
         ->check(CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "it is empty" : ""); },
                                "DIR"));
@@ -411,11 +422,6 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
                            "Algorithms to compare, separated by commas (default: path,bdpt, and vcm where the "
                            "scene has mirrors or smooth glass)");
     integrators->delimiter(',')->allow_extra_args(false)->check(CLI::IsMember(integrator_setting_names()));
-    command
-        .add_option("--seconds", arguments.seconds,
-                    "Time of each render if all threads work for it alone: all variants get as much CPU time, that "
-                    "of so many seconds on all threads (default: 10)")
-        ->check(real_range(1e-3, 1e9));
     command.add_flag("--wall", arguments.by_wall,
                      "Compare by time on the clock in place of CPU time, as where variants leave threads idle");
     command
@@ -429,19 +435,22 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
                                   "Algorithm that renders the reference (default: the variants' renders are pooled)");
     by->check(CLI::IsMember(integrator_names()))->excludes(file);
     command
-        .add_option("--reference-seconds", arguments.reference_seconds,
-                    "Time of that render, counted as --seconds is (default: ten times that of the longest variant)")
+        .add_option(
+            "--reference-time", arguments.reference_seconds,
+            "Time of that render, in seconds, counted as --time is (default: ten times that of the longest variant)")
         ->check(real_range(1e-3, 1e9))
         ->needs(by);
+    add_old_name(command, "--reference-seconds", "--reference-time");
     command
         .add_option_function<std::vector<std::string>>(
             "--region",
             [&arguments](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) arguments.regions.push_back(parse_region(text));
             },
-            "Part of the image to report by itself, NAME:x0,y0,x1,y1; may be repeated (default: where variants differ "
-            "most)")
-        ->allow_extra_args(false);
+            "Part of the image to report by itself, in pixels as of --crop; may be repeated (default: where variants "
+            "differ most)")
+        ->allow_extra_args(false)
+        ->type_name("NAME:x0,y0,x1,y1");
     command
         .add_option(
             "--insets", arguments.inset_classes,
@@ -479,10 +488,16 @@ void add_compare_command(CLI::App& app, Action& action) {
             [arguments](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) arguments->variants.push_back(parse_variant(text));
             },
-            "A variant to compare, 'NAME: OPTIONS' with options of 'render'; may be repeated, and goes with "
-            "--integrators")
-        ->allow_extra_args(false);
+            "A variant to compare, with options of 'render', such as 'deep: --max-depth 64'; may be repeated, and goes "
+            "with --integrators")
+        ->allow_extra_args(false)
+        ->type_name("'NAME: OPTIONS'");
+    replace_time_option(*command, arguments->seconds,
+                        "Time of each render, in seconds, if all threads work for it alone: all variants get as much "
+                        "CPU time, that of so many seconds on all threads; --spp says how many samples instead "
+                        "(default: 10)");
     hide_options(*command, options_compare_sets());
+    set_compare_groups(*command);
     command->footer(
         "Every variant is rendered as many times, each time with a seed that no other render has and for the same "
         "CPU\n"
@@ -491,7 +506,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         "Examples:\n"
         "  etendue compare scenes/caustic-glass -o report\n"
         "  etendue compare scenes/caustic-glass -o report --live\n"
-        "  etendue compare scenes/cornell-box --integrators path,bdpt,light --seconds 5 --seeds 8 -o report\n"
+        "  etendue compare scenes/cornell-box --integrators path,bdpt,light --time 5 --seeds 8 -o report\n"
         "  etendue compare scenes/caustic-glass --region caustic:105,192,150,216 --reference glass.exr -o report\n"
         "  etendue compare scenes/veach-mis --integrator bdpt --variant 'power: --heuristic power' --variant 'balance: "
         "'"
@@ -500,7 +515,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         const CompareArguments& given = *arguments;
         refuse_options(*command, options_compare_sets());
         if (given.common.overrides.spp() && given.seconds)
-            throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
+            throw CLI::ValidationError("--time", "cannot be given with --spp: one of them ends a render");
         if (given.variants.empty() && command->count("--integrator") > 0)
             throw CLI::ValidationError("--integrator", "--integrators names the algorithms that are compared");
         if (given.seeds == 2 && given.reference.empty() && given.reference_integrator.empty())
@@ -517,7 +532,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         require_different("--region", regions);
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
         arguments->command = command_line("etendue compare", given_options(all));
-        arguments->common.given = without(given_options(std::span(all).subspan(own)), "--variant");
+        arguments->common.given = without(without(given_options(std::span(all).subspan(own)), "--variant"), "--time");
         action = [arguments] {
             try {
                 return run_compare(*arguments);

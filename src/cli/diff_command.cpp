@@ -1,4 +1,5 @@
 // etendue diff: how far an image is from a reference.
+#include "cli/command_options.h"
 #include "cli/commands.h"
 #include "cli/settings_options.h"
 #include "compare/image_measures.h"
@@ -122,7 +123,7 @@ void parse_exposures(const std::string& text, HdrFlipOptions& options) {
 }
 
 PixelRect parse_window(const std::string& text) {
-    const auto window = parse_pixel_window("--region", text);
+    const auto window = parse_pixel_window("--crop", text);
     return {window[0], window[1], window[2], window[3]};
 }
 
@@ -290,7 +291,7 @@ bool can_measure(const ImagePair& pair, const std::vector<std::string>& names, c
     }
     const auto& region = arguments.options.region;
     if (region && intersection(*region, pair.window) != *region) {
-        log_error("error: --region {} is not inside {}, the pixels that both images have", text_of(*region),
+        log_error("error: --crop {} is not inside {}, the pixels that both images have", text_of(*region),
                   text_of(pair.window));
         return false;
     }
@@ -364,27 +365,37 @@ void add_diff_options(CLI::App& command, DiffArguments& arguments) {
             [&arguments](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) arguments.limits.push_back(parse_limit(text));
             },
-            "MEASURE=VALUE: end with exit code 1 if the measure is larger; for several, again or with commas")
+            "End with exit code 1 if the measure is larger; for several, again or with commas")
         ->delimiter(',')
-        ->allow_extra_args(false);
-    command.add_option("--map", arguments.map,
-                       "Write the error of each pixel by the first measure: .png in colours (magma), .exr as numbers");
+        ->allow_extra_args(false)
+        ->type_name("MEASURE=VALUE");
+    command
+        .add_option("--map", arguments.map,
+                    "Write the error of each pixel by the first measure: .png in colours (magma), .exr as numbers")
+        ->type_name("FILE");
     command
         .add_option("--map-max", arguments.map_largest,
                     "What the brightest colour of the PNG stands for (default: 1 for FLIP, else what 99% of the "
                     "pixels are not above)")
         ->check(CLI::PositiveNumber);
-    command.add_option_function<std::string>(
-        "--region", [&arguments](const std::string& text) { arguments.options.region = parse_window(text); },
-        "Measure only pixels x0,y0,x1,y1 of the full image (half-open, y down)");
+    command
+        .add_option_function<std::string>(
+            "--crop", [&arguments](const std::string& text) { arguments.options.region = parse_window(text); },
+            "Measure only the pixels from x0, y0 to before x1, y1 of the full image, with y down from the top left "
+            "corner")
+        ->type_name("x0,y0,x1,y1");
+    add_old_name(command, "--region", "--crop");
     command
         .add_option("--ppd", arguments.options.flip.pixels_per_degree,
                     "FLIP: pixels per degree of the viewer's sight (default: 67.02, a screen of 3840 pixels and "
                     "0.7 m seen from 0.7 m)")
         ->check(CLI::Range(kLeastPixelsPerDegree, kMostPixelsPerDegree));
-    command.add_option_function<std::string>(
-        "--exposures", [&arguments](const std::string& text) { parse_exposures(text, arguments.options.flip); },
-        "HDR-FLIP: START:STOP in stops (default: chosen by the reference; the same for images that are to be ranked)");
+    command
+        .add_option_function<std::string>(
+            "--exposures", [&arguments](const std::string& text) { parse_exposures(text, arguments.options.flip); },
+            "HDR-FLIP: exposures in stops (default: chosen by the reference; the same for images that are to be "
+            "ranked)")
+        ->type_name("START:STOP");
     command.add_option("--threads", arguments.threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
     command.add_flag("--json", arguments.json, "Print JSON on stdout");
@@ -416,7 +427,7 @@ void add_diff_command(CLI::App& app, Action& action) {
         "  etendue diff box.exr reference.exr --metric flip --map flip.png\n"
         "  etendue diff box.exr reference.exr --fail-above relmse=0.01,flip=0.05 --quiet\n"
         "  etendue diff new.png old.png --metric ldr-flip --json\n"
-        "  etendue diff crop.exr reference.exr --region 100,100,200,200 --metric mse,smape",
+        "  etendue diff crop.exr reference.exr --crop 100,100,200,200 --metric mse,smape",
         formula_of(ErrorMetric::RelMse), formula_of(ErrorMetric::RelMseTrimmed), formula_of(ErrorMetric::Mse),
         formula_of(ErrorMetric::Mae), formula_of(ErrorMetric::Smape)));
     command->callback([arguments, &action] {

@@ -4,10 +4,12 @@
 #include "cli/settings_options.h"
 #include "live/explorer.h"
 #include "live/explorer_page.h"
+#include "live/tev_viewer.h"
 #include "session/interrupt.h"
 #include "session/prepared_scene.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,13 +24,18 @@ struct LiveArguments {
     std::string scene;
     SettingsOverrides overrides;
     int port = 0;
+    std::optional<TevAddress> tev;
     int threads = 0;
     std::vector<GivenOption> given;  ///< what `render` understands, too
 };
 
 ExitCode run_live(const LiveArguments& arguments) {
     const ThreadPool threads(arguments.threads);
-    Explorer explorer(prepare_scene(arguments.scene, arguments.overrides), arguments.given, threads);
+    std::optional<TevViewer> tev;
+    if (arguments.tev) tev.emplace(*arguments.tev);
+    Explorer::TakeImage take;
+    if (tev) take = [&tev](const std::string& name, const OutputFrame& frame) { tev->show(name, frame); };
+    Explorer explorer(prepare_scene(arguments.scene, arguments.overrides), arguments.given, threads, std::move(take));
     ExplorerPage page(arguments.port, explorer);
     explorer.run([&] { return page.is_ended() || interrupt_requested(); });
     return page.is_ended() ? ExitCode::Success : interrupt_exit_code();
@@ -45,6 +52,7 @@ void add_live_command(CLI::App& app, Action& action) {
         ->add_option("--port", arguments->port,
                      "Port of 127.0.0.1 that the page is on; 0 (default) for one that is free")
         ->check(CLI::Range(0, 65535));
+    add_tev_option(*command, arguments->tev, "Send the images, too,");
     add_settings_options(*command, arguments->overrides);
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
@@ -54,10 +62,11 @@ void add_live_command(CLI::App& app, Action& action) {
         "Examples:\n"
         "  etendue live scenes/cornell-box\n"
         "  etendue live scenes/caustic-glass --integrator bdpt --size 640x360\n"
-        "  etendue live model.glb --environment studio.hdr --port 8080");
+        "  etendue live model.glb --environment studio.hdr --port 8080\n"
+        "  etendue live scenes/cornell-box --tev 127.0.0.1:14158");
     command->callback([arguments, command, &action] {
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
-        arguments->given = without(given_options(all), "--port");
+        arguments->given = without(without(given_options(all), "--port"), "--tev");
         action = [arguments] { return run_live(*arguments); };
     });
 }

@@ -59,8 +59,7 @@ constexpr const char* kNoImage = "here no image file is written";
 
 constexpr std::array kRefusedOptions{
     OptionOfRender{"--integrator", "here --integrators names those that are measured"},
-    OptionOfRender{"--time", "here it is --seconds, for each repetition"},
-    OptionOfRender{"--error", "here all runs end after --seconds or with --spp"},
+    OptionOfRender{"--error", "here all runs end after --time or with --spp"},
     OptionOfRender{"--adaptive", "here all pixels get as many samples"},
     OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
     OptionOfRender{"--min-spp", "here all pixels get as many samples"},
@@ -422,10 +421,8 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         ->allow_extra_args(false)
         ->check(CLI::Range(1, 4096));
     command
-        .add_option("--seconds", arguments.seconds,
-                    "Time of each repetition, about (default: 1); --spp says how many samples instead")
-        ->check(real_range(1e-3, 1e6));
-    command.add_option("--repeat", arguments.repetitions, "Repetitions of each run (default: 5)")
+        .add_option("--repeat", arguments.repetitions,
+                    "Repetitions of each integrator on each number of threads (default: 5)")
         ->check(CLI::Range(1, 1000));
     auto* against = command
                         .add_option("--against", arguments.against,
@@ -434,7 +431,7 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
                         ->check(CLI::ExistingFile);
     command
         .add_option("--tolerance", arguments.tolerance,
-                    "How much slower counts as none for --against, relative (default: 0.02)")
+                    "How much slower counts as none for --against, as a share of the time (default: 0.02, which is 2%)")
         ->check(real_range(0.0, 10.0))
         ->needs(against);
     add_accelerator_options(command, arguments.accelerators);
@@ -445,6 +442,14 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         ->check(CLI::ExistingFile);
     command.add_flag("--quiet", arguments.quiet, "No progress, notes or tables; errors only");
     command.add_flag("--json", arguments.json, "Print profile.json on stdout in place of the tables");
+}
+
+void set_profile_groups(CLI::App& command) {
+    set_group(command, "What is measured",
+              {"--integrators", "--threads", "--time", "--repeat", "--accelerators", "--growth"});
+    set_group(command, "What it is compared with", {"--against", "--tolerance", "--history"});
+    set_group(command, "What is said", {"--quiet", "--json"});
+    command.get_option("--spp")->description("Samples per pixel of each repetition, in place of --time");
 }
 
 void require_different_names(const std::vector<std::string>& names) {
@@ -467,7 +472,10 @@ void add_profile_command(CLI::App& app, Action& action) {
         app.add_subcommand("profile", "Measure where the time of a render goes, and how fast Embree alone would be");
     add_profile_options(*command, *arguments);
     add_settings_options(*command, arguments->overrides);
+    replace_time_option(*command, arguments->seconds,
+                        "Time of each repetition, in seconds, about; --spp says how many samples instead (default: 1)");
     hide_options(*command, kRefusedOptions);
+    set_profile_groups(*command);
     command->footer(
         "Repetitions of all runs take turns. A last one of each has its stages timed and some of its rays recorded,\n"
         "which bare Embree then traces again: what it needs for them, over what the render took, is the efficiency.\n"
@@ -475,13 +483,13 @@ void add_profile_command(CLI::App& app, Action& action) {
         "Exit code 1 if --against finds a run that has become slower, 3 if the two profiles are of different work.\n\n"
         "Examples:\n"
         "  etendue profile scenes/cornell-box -o profile\n"
-        "  etendue profile scenes/caustic-glass --integrators bdpt --threads 1,2 --seconds 5 -o profile\n"
+        "  etendue profile scenes/caustic-glass --integrators bdpt --threads 1,2 --time 5 -o profile\n"
         "  etendue profile scenes/diamond --accelerators embree,bvh,kdtree,grid,brute --growth 100000 -o profile\n"
         "  etendue profile scenes/cornell-box --against before/profile.json --repeat 15 -o after");
     command->callback([arguments, command, &action] {
         refuse_options(*command, kRefusedOptions);
         if (arguments->overrides.spp() && arguments->seconds)
-            throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
+            throw CLI::ValidationError("--time", "cannot be given with --spp: one of them ends a render");
         require_different_names(arguments->integrators);
         if (std::set(arguments->threads.begin(), arguments->threads.end()).size() != arguments->threads.size())
             throw CLI::ValidationError("--threads", "a number of threads is given twice");

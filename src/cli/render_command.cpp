@@ -229,13 +229,7 @@ void add_render_command(CLI::App& app, Action& action) {
         "--force", arguments->force,
         "Of a sequence or with --resume, render again what is up to date, and replace a part whatever it is; a "
         "checkpoint is gone on with all the same");
-    command->add_option_function<std::string>(
-        "--tev",
-        [arguments](const std::string& text) {
-            arguments->tev = TevAddress::parse(text);
-            if (!arguments->tev) throw CLI::ValidationError("--tev", fmt::format("'{}' is no HOST:PORT", text));
-        },
-        "Send the image as it grows, with its layers, to the viewer tev that listens at HOST:PORT (docs/live.md)");
+    add_tev_option(*command, arguments->tev, "Send the image as it grows, with its layers,");
     add_live_option(*command, arguments->live, "Show the image in a browser as it grows");
     command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");

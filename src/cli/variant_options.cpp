@@ -16,13 +16,13 @@ namespace {
 
 /// Lists options that may be given to all variants alike, but not to one.
 constexpr std::array kOptionsForAll{
+    OptionOfRender{"--time", "all variants render alike, for --time of 'compare'"},
     OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'"},
-    OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'"}};
+    OptionOfRender{"--spp", "all variants render alike, for --time or with --spp of 'compare'"}};
 
 constexpr const char* kImagesOfCompare = "images that are kept have 32-bit floats in the working space";
 
-constexpr std::array kOptionsOfRender{OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
-                                      OptionOfRender{"--error", "the errors of all variants are measured"},
+constexpr std::array kOptionsOfRender{OptionOfRender{"--error", "the errors of all variants are measured"},
                                       OptionOfRender{"--adaptive", "here all pixels get as many samples"},
                                       OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
                                       OptionOfRender{"--min-spp", "here all pixels get as many samples"},

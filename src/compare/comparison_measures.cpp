@@ -246,7 +246,7 @@ std::string unequal_times(const ComparisonReport& report) {
     if (!(ratio > kMostRatio)) return "";
     return fmt::format(
         "times are not equal: '{}' took {:.3g} s of {} in the mean, '{}' {:.3g} s, {:.0f}% more; look at ratios of "
-        "relMSE x time, or give more --seconds",
+        "relMSE x time, or give more --time",
         least->name, time(*least), report.by_wall ? "time on the clock" : "CPU time", most->name, time(*most),
         100.0 * (ratio - 1.0));
 }

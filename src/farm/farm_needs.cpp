@@ -107,12 +107,15 @@ TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts) {
                        3.0 * static_cast<double>(size.merge_bytes()) + writing_bytes(size));
 }
 
+double memory_of_render(std::uint64_t peak_memory_bytes, std::uint64_t deep_bytes, const FilmSize& size) {
+    const std::uint64_t deep_growth = size.deep_bytes() - std::min(size.deep_bytes(), deep_bytes);
+    return static_cast<double>(peak_memory_bytes) + writing_bytes(size) +
+           static_cast<double>(deep_growth + size.second_bytes());
+}
+
 TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads) {
     const double render = probe.render_seconds * probe.threads / static_cast<double>(threads) * share;
-    const std::uint64_t deep_growth = size.deep_bytes() - std::min(size.deep_bytes(), probe.deep_bytes);
-    const double bytes = static_cast<double>(probe.peak_memory_bytes) + writing_bytes(size) +
-                         static_cast<double>(deep_growth + size.second_bytes());
-    return with_safety(probe.start_seconds + render, bytes);
+    return with_safety(probe.start_seconds + render, memory_of_render(probe.peak_memory_bytes, probe.deep_bytes, size));
 }
 
 }  // namespace etendue

@@ -67,9 +67,11 @@ struct FilmSize {
 /// Returns the size of the image of `scene`. Throws as make_aov_plan does.
 [[nodiscard]] FilmSize film_size_of(const SceneDesc& scene);
 
-/// Returns the needs of a task with `threads` threads that takes `share` of the samples of an image, (0, 1]. A probe
-/// neither writes an image nor keeps a second film, and its depths may become many more: that comes on top of its
-/// memory.
+/// Returns the bytes that all of a render takes whose beginning had `peak_memory_bytes`, `deep_bytes` of them for
+/// depths: a probe neither writes an image nor keeps a second film, and its depths may become many more.
+[[nodiscard]] double memory_of_render(std::uint64_t peak_memory_bytes, std::uint64_t deep_bytes, const FilmSize& size);
+
+/// Returns the needs of a task with `threads` threads that takes `share` of the samples of an image, (0, 1].
 [[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads);
 
 /// Returns the needs of the task that merges `parts` parts of an image: in memory are the sums, a part, and as much for

@@ -1,5 +1,6 @@
 #include "farm/probe.h"
 
+#include "farm/farm_needs.h"
 #include "picture/aov_setup.h"
 #include "picture/integrator_choice.h"
 #include "picture/render_setup.h"
@@ -55,6 +56,7 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     const PhaseTimer build_timer;
     const ColorConfig colors = ColorConfig::from_environment();
     const ImageOutline outline = outline_of(prepared.scene);
+    const FilmSize film_size = film_size_of(prepared.scene);
     const std::vector<std::string> to_choose = replace_auto(prepared.scene.settings);
     RenderSettings settings = prepared.scene.settings;
     const std::string working_space = resolve_colors(settings, colors);
@@ -71,6 +73,8 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     const double limit = settings.time_limit;
     const double all = rendered.seconds_per_spp * static_cast<double>(options.spp);
     const double start = prepared.load.wall + build.wall;
+    const std::uint64_t peak = peak_memory_bytes();
+    const double memory = kMemorySafety * memory_of_render(peak, rendered.deep_bytes, film_size);
     const nlohmann::ordered_json json{{"scene", job.scene.string()},
                                       {"width", outline.width},
                                       {"height", outline.height},
@@ -82,7 +86,8 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
                                       {"build_seconds", build.wall},
                                       {"seconds_per_spp", rendered.seconds_per_spp},
                                       {"estimated_seconds", start + (limit > 0.0 ? std::min(all, limit) : all)},
-                                      {"peak_memory_bytes", peak_memory_bytes()},
+                                      {"peak_memory_bytes", peak},
+                                      {"estimated_memory_bytes", static_cast<std::uint64_t>(memory)},
                                       {"deep_bytes", rendered.deep_bytes}};
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

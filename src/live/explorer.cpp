@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -79,8 +80,9 @@ std::string text_of_place(const CameraPlace& place) {
 
 }  // namespace
 
-Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given, const ThreadPool& threads)
-    : threads_(threads), given_(given) {
+Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given, const ThreadPool& threads,
+                   TakeImage take)
+    : threads_(threads), given_(given), take_(std::move(take)) {
     // Images here are whole, and have no end.
     for (const char* const name : {"--crop", "--overscan", "--error"}) given_ = without(std::move(given_), name);
     SceneDesc scene = std::move(prepared.scene);
@@ -267,8 +269,19 @@ void Explorer::publish(Side& side) {
     frame.integrator = side.settings.integrator.type;
     frame.spp = side.shrink == 1 ? static_cast<int>(state.spp_done) : 0;
     frame.render_seconds = state.wall_seconds;
+    hand_over(side, frame);
     side.image.set(std::move(frame));
     count_news();
+}
+
+void Explorer::hand_over(Side& side, const OutputFrame& frame) {
+    constexpr std::chrono::milliseconds kBetweenImages(500);
+    const bool is_last = side.rendering->state().spp_done >= kMostExplorerSpp;
+    const Clock::time_point now = Clock::now();
+    if (!take_ || side.shrink != 1 || (!is_last && now - side.taken < kBetweenImages)) return;
+    side.taken = now;
+    const char* const place = &side == &sides_[0] ? "left" : "right";
+    take_(fmt::format("{}, {}: {}", scene_.name, place, frame.integrator), frame);
 }
 
 void Explorer::count_news() {

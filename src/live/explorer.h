@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "image/image_module.h"
 #include "live/live_image.h"
+#include "output/output_frame.h"
 #include "picture/render_setup.h"
 #include "render/progressive_render.h"
 #include "scene/scene_desc.h"
@@ -17,6 +18,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -46,12 +48,17 @@ struct ExplorerSide {
 /// Renders a scene for a page. `run` works on the calling thread; all other functions are for other threads.
 class Explorer {
   public:
-    /// Compiles the scene. `given` are the options of the command line, which commands to copy repeat. Throws what
-    /// `compile_world` does, and SceneError for settings that cannot be.
-    Explorer(PreparedScene prepared, const std::vector<GivenOption>& given, const ThreadPool& threads);
+    /// Gets images of full size under a name of the scene, side and integrator, twice a second of each side.
+    using TakeImage = std::function<void(const std::string& name, const OutputFrame& frame)>;
+
+    /// Compiles the scene. `given` are the options of the command line, which commands to copy repeat. `take`, which
+    /// may be empty, is called by `run`, which then renders also while nobody looks. Throws what `compile_world` does,
+    /// and SceneError for settings that cannot be.
+    Explorer(PreparedScene prepared, const std::vector<GivenOption>& given, const ThreadPool& threads,
+             TakeImage take = {});
 
     /// Renders until `end` returns true: whichever image has had less processor time goes on. Nothing is rendered
-    /// while nobody looks, nor once all samples are taken.
+    /// once all samples are taken, nor while nobody looks.
     void run(const StopPredicate& end);
 
     /// Puts the camera at `place`, the text of --camera-place. While it `moves`, images are as small as it takes to
@@ -90,6 +97,7 @@ class Explorer {
         double cpu_seconds = 0.0;
         std::uint64_t rays = 0;
         LiveImage image;
+        Clock::time_point taken{};  ///< when the image was last handed to `take_`
     };
 
     /// Holds what pages ask for until it is done.
@@ -101,7 +109,7 @@ class Explorer {
     };
 
     [[nodiscard]] RenderSettings settings_of(const ExplorerChoice& choice) const;
-    [[nodiscard]] bool is_watched() const { return Clock::now() - looked_at_.load() < kWatchedFor; }
+    [[nodiscard]] bool is_watched() const { return take_ || Clock::now() - looked_at_.load() < kWatchedFor; }
     /// Returns true while a drag goes on; one whose end is never told, as its page is closed, ends after a second.
     [[nodiscard]] bool does_camera_move() const { return Clock::now() - moved_at_.load() < std::chrono::seconds(1); }
     void fulfil(Wishes wishes);
@@ -111,12 +119,15 @@ class Explorer {
     void begin(Side& side, int shrink);
     void advance(Side& side, const StopPredicate& end);
     void publish(Side& side);
+    /// Hands `frame` to `take_` if it is time for that.
+    void hand_over(Side& side, const OutputFrame& frame);
     void count_news();
 
     std::future<void> image_module_ = load_image_module_early();  ///< while what makes pictures is loaded
     const ThreadPool& threads_;
     ColorConfig colors_ = ColorConfig::from_environment();
     std::vector<GivenOption> given_;
+    TakeImage take_;
     SceneDesc scene_;                     ///< cameras, settings and names; the rest is in the world
     std::optional<std::string> catcher_;  ///< the name of a material that catches shadows, if there is one
     double distance_ = 1.0;               ///< from the scene's own camera to what it turns around, metres

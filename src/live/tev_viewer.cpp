@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <future>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -29,7 +30,8 @@ namespace etendue {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenImages{500};
-constexpr std::chrono::milliseconds kPatience{3000};       // for a connection or for any progress
+constexpr std::chrono::milliseconds kPatience{3000};  // for a connection or for any progress
+constexpr std::chrono::seconds kPatienceForName{30};
 constexpr std::chrono::seconds kLastPatience{10};          // of the end, for all
 constexpr std::size_t kMostFloats = std::size_t{1} << 22;  // of a packet, whose length has 32 bits
 
@@ -94,6 +96,18 @@ void send_pixels(const std::string& name, const std::vector<std::string>& channe
     }
 }
 
+using Addresses = std::shared_ptr<const addrinfo>;
+
+/// Looks the address up. Throws IoError.
+Addresses look_up(const TevAddress& address) {
+    addrinfo hints{};
+    hints.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (const int error = ::getaddrinfo(address.host.c_str(), address.port.c_str(), &hints, &found); error != 0)
+        throw IoError(::gai_strerror(error));
+    return {found, &::freeaddrinfo};
+}
+
 }  // namespace
 
 std::optional<TevAddress> TevAddress::parse(const std::string& text) {
@@ -126,13 +140,23 @@ bool TevViewer::wants_image() const {
 }
 
 void TevViewer::show(const ImageDescription& image) {
+    std::string name;
+    {
+        const std::scoped_lock lock(mutex_);
+        name = name_;
+    }
+    show(name, image.frame);
+}
+
+void TevViewer::show(const std::string& name, const OutputFrame& frame) {
     if (is_lost_) return;
     shown_ = Clock::now();
     is_idle_ = false;
     {
         const std::scoped_lock lock(mutex_);
-        if (next_.empty() || next_.back().first != name_) next_.emplace_back(name_, nullptr);
-        next_.back().second = std::make_shared<const OutputFrame>(image.frame);
+        auto waiting = std::ranges::find(next_, name, [](const auto& each) { return each.first; });
+        if (waiting == next_.end()) waiting = next_.emplace(next_.end(), name, nullptr);
+        waiting->second = std::make_shared<const OutputFrame>(frame);
     }
     woken_.notify_all();
 }
@@ -166,7 +190,7 @@ void TevViewer::send(const std::string& name, const OutputFrame& frame) {
     for (const OutputLayer& layer : frame.layers)
         if (layer.channels.size() == static_cast<std::size_t>(layer.pixels.channels))
             parts.emplace_back(channel_names(layer.name, layer.channels), &layer.pixels);
-    if (name != sent_name_) {
+    if (!sent_names_.contains(name)) {
         // What an earlier run has sent may have another size.
         Packet close(PacketKind::CloseImage);
         close.put_text(name);
@@ -181,7 +205,7 @@ void TevViewer::send(const std::string& name, const OutputFrame& frame) {
         create.put(static_cast<std::int32_t>(all.size()));
         for (const std::string& channel : all) create.put_text(channel);
         send_bytes(create.finished());
-        sent_name_ = name;
+        sent_names_.insert(name);
     }
     for (const auto& [channels, image] : parts) send_pixels(name, channels, *image, send_packet);
 }
@@ -200,14 +224,19 @@ void TevViewer::wait_until_writable(int socket) const {
 }
 
 FileDescriptor TevViewer::connect() const {
-    addrinfo hints{};
-    hints.ai_socktype = SOCK_STREAM;
-    addrinfo* found = nullptr;
-    if (const int error = ::getaddrinfo(address_.host.c_str(), address_.port.c_str(), &hints, &found); error != 0)
-        throw IoError(::gai_strerror(error));
-    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> all(found, &::freeaddrinfo);
+    // A server of names that does not answer holds the system's look-up for as long as it likes: nobody waits for that
+    // thread, which has what it needs.
+    std::packaged_task<Addresses()> task([address = address_] { return look_up(address); });
+    std::future<Addresses> answer = task.get_future();
+    std::thread(std::move(task)).detach();
+    constexpr std::chrono::milliseconds kBetweenLooks{100};
+    const Clock::time_point start = Clock::now();
+    while (answer.wait_for(kBetweenLooks) != std::future_status::ready)
+        if (Clock::now() >= std::min(start + kPatienceForName, deadline_.load()))
+            throw IoError("the look-up of its name takes too long");
+    const Addresses found = answer.get();
     int error = 0;
-    for (const addrinfo* each = found; each != nullptr; each = each->ai_next) {
+    for (const addrinfo* each = found.get(); each != nullptr; each = each->ai_next) {
         FileDescriptor socket(::socket(each->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
         if (!socket.is_open()) continue;
         error = ::connect(socket.get(), each->ai_addr, each->ai_addrlen) == 0 ? 0 : errno;

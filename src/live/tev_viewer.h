@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -42,12 +43,14 @@ class TevViewer final : public RenderWatcher {
     void update(const RenderProgress& /*progress*/) override {}
     [[nodiscard]] bool wants_image() const override;
     void show(const ImageDescription& image) override;
+    /// Sends `frame` as the image `name`, unless a newer one of that name comes before it is sent.
+    void show(const std::string& name, const OutputFrame& frame);
 
   private:
     using Clock = std::chrono::steady_clock;
 
     void run();
-    /// Sends `frame` as the image `name`, which is made anew if it is another than the one before. Throws IoError.
+    /// Sends `frame` as the image `name`, which is made anew the first time. Throws IoError.
     void send(const std::string& name, const OutputFrame& frame);
     void send_bytes(std::string_view bytes) const;
     /// Waits until `socket` can be written to. Throws IoError if it cannot for some seconds, or the end has come.
@@ -64,8 +67,8 @@ class TevViewer final : public RenderWatcher {
     std::string name_;
     std::deque<std::pair<std::string, std::shared_ptr<const OutputFrame>>> next_;  ///< one image of each name at most
     bool is_ended_ = false;
-    FileDescriptor socket_;  ///< of the thread, as is the next
-    std::string sent_name_;
+    FileDescriptor socket_;             ///< of the thread, as is the next
+    std::set<std::string> sent_names_;  ///< names of images that tev has
     std::thread thread_;
 };
 

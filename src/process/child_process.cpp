@@ -1,6 +1,7 @@
 #include "process/child_process.h"
 
 #include "core/error.h"
+#include "process/memory_left.h"
 #include "process/pipe.h"
 
 #include <algorithm>
@@ -194,16 +195,28 @@ void ChildProcess::drain(const LineCallback& on_message, const LineCallback& on_
     progress_.lines.finish(on_progress);
 }
 
+void ChildProcess::wait_for_any(std::span<const ChildProcess* const> children, std::chrono::milliseconds timeout) {
+    // Nothing tells when a child ends that has closed its pipes; it mostly does so by ending.
+    constexpr std::chrono::milliseconds kBetweenLooks(10);
+    std::vector<pollfd> pipes;
+    for (const ChildProcess* const child : children) {
+        const std::size_t before = pipes.size();
+        for (const Stream* stream : {&child->output_stream_, &child->messages_, &child->progress_})
+            if (stream->pipe.is_open()) pipes.push_back({stream->pipe.get(), POLLIN, 0});
+        if (pipes.size() == before) timeout = std::min(timeout, kBetweenLooks);
+    }
+    ::poll(pipes.data(), pipes.size(), static_cast<int>(timeout.count()));
+}
+
+std::uint64_t ChildProcess::own_memory_bytes() const {
+    return pid_ > 0 ? process_memory_bytes(pid_) : 0;
+}
+
 bool ChildProcess::wait(std::chrono::milliseconds timeout, const LineCallback& on_message,
                         const LineCallback& on_progress) {
     if (pid_ < 0) return false;
-    std::vector<pollfd> pipes;
-    for (const Stream* stream : {&output_stream_, &messages_, &progress_})
-        if (stream->pipe.is_open()) pipes.push_back({stream->pipe.get(), POLLIN, 0});
-    // Nothing tells when a child ends that has closed its pipes; it mostly does so by ending.
-    constexpr std::chrono::milliseconds kBetweenLooks(10);
-    const std::chrono::milliseconds longest = pipes.empty() ? std::min(timeout, kBetweenLooks) : timeout;
-    ::poll(pipes.data(), pipes.size(), static_cast<int>(longest.count()));
+    const ChildProcess* const self = this;
+    wait_for_any({&self, 1}, timeout);
     siginfo_t ended{};
     const bool is_over =
         ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT | WNOHANG) == 0 && ended.si_pid == pid_;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,13 @@ class ChildProcess {
     /// `on_message` with each line of stderr, `on_progress` with each line of progress. False once the child has ended
     /// and all that it wrote was handed over.
     bool wait(std::chrono::milliseconds timeout, const LineCallback& on_message, const LineCallback& on_progress);
+
+    /// Waits until one of `children`, none of which has ended, has written something or ended, a signal arrives here,
+    /// or `timeout` is over.
+    static void wait_for_any(std::span<const ChildProcess* const> children, std::chrono::milliseconds timeout);
+
+    /// Returns the bytes of memory that the child has resident and shares with no file; 0 once it has ended.
+    [[nodiscard]] std::uint64_t own_memory_bytes() const;
 
     /// Sends it a signal, unless it has ended.
     void send(int signal);

@@ -88,6 +88,7 @@ std::string to_json(const BatchReport& report) {
                     {"seconds_left", known(report.seconds_left)},
                     {"host", report.host},
                     {"threads", positive(report.threads)},
+                    {"jobs", report.jobs},
                     {"interrupted", report.interrupted},
                     {"totals", batch_object(totals(report))},
                     {"units", std::move(units)}};

@@ -85,6 +85,7 @@ struct BatchReport {
     std::optional<double> seconds_left{};  ///< seconds until all is done, if that is known
     std::string host{};
     int threads = 0;
+    int jobs = 1;  ///< images that may be rendered at the same time
     bool interrupted = false;
     std::vector<BatchUnit> units{};
 };

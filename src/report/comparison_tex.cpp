@@ -1,5 +1,7 @@
+#include "core/shown_text.h"
 #include "report/comparison_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,9 +11,10 @@ namespace etendue {
 
 namespace {
 
+/// Writes text as LaTeX reads it; what pdfLaTeX has no letter for stays, for LuaLaTeX.
 std::string tex_text(const std::string& text) {
     std::string result;
-    for (const char c : text) {
+    for (const char c : shown_text(text)) {
         switch (c) {
             case '\\':
                 result += "\\textbackslash{}";
@@ -21,6 +24,24 @@ std::string tex_text(const std::string& text) {
                 break;
             case '^':
                 result += "\\textasciicircum{}";
+                break;
+            case '<':
+                result += "\\textless{}";
+                break;
+            case '>':
+                result += "\\textgreater{}";
+                break;
+            case '|':
+                result += "\\textbar{}";
+                break;
+            case '"':
+                result += "\\char34{}";
+                break;
+            // At the beginning of a row they would belong to the end of the row before.
+            case '[':
+            case ']':
+            case '*':
+                result += fmt::format("{{{}}}", c);
                 break;
             case '#':
             case '$':
@@ -38,13 +59,18 @@ std::string tex_text(const std::string& text) {
     return result;
 }
 
-/// Three significant digits, with a power of ten where there would be many zeros.
-std::string tex_number(double value) {
-    if (!std::isfinite(value)) return "--";
-    if (value == 0.0) return "$0$";
+/// So many significant digits, with a power of ten where there would be many zeros, for formulas.
+std::string tex_formula(double value, int digits) {
+    if (!std::isfinite(value)) return "\\mbox{--}";
+    if (value == 0.0) return "0";
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
-    if (exponent >= -3 && exponent < 5) return fmt::format("${:.{}f}$", value, std::max(0, 2 - exponent));
-    return fmt::format("${:.2f} \\times 10^{{{}}}$", value / std::pow(10.0, exponent), exponent);
+    if (exponent >= -3 && exponent < 5) return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+    return fmt::format("{:.{}f} \\times 10^{{{}}}", value / std::pow(10.0, exponent), digits - 1, exponent);
+}
+
+std::string tex_number(double value) {
+    constexpr int kDigits = 3;
+    return std::isfinite(value) ? fmt::format("${}$", tex_formula(value, kDigits)) : "--";
 }
 
 std::string tex_interval(const RatioInterval& interval) {
@@ -97,9 +123,9 @@ std::vector<std::vector<std::string>> pair_rows(const ComparisonReport& report) 
         }
         row.push_back(!pair.not_tested.empty() || !pair.agreement
                           ? "not tested"
-                          : fmt::format("{}, $p = {:.2g}$, $\\geq {:.2g}\\,\\%$",
-                                        pair.agreement->agree() ? "yes" : "no", pair.agreement->p_value,
-                                        100.0 * pair.smallest_of_image()));
+                          : fmt::format("{}, $p = {}$, $\\geq {}\\,\\%$", pair.agreement->agree() ? "yes" : "no",
+                                        tex_formula(pair.agreement->p_value, 2),
+                                        tex_formula(100.0 * pair.smallest_of_image(), 2)));
         rows.push_back(std::move(row));
     }
     return rows;
@@ -115,9 +141,13 @@ std::string columns_of(const std::vector<std::vector<std::string>>& rows) {
 
 std::string to_tex(const ComparisonReport& report) {
     const auto variants = variant_rows(report);
-    std::string text =
-        fmt::format("% {}\n% {}\n% \\usepackage{{booktabs}}\n\n% Means and standard deviations over {} seeds.\n{}",
-                    report.program, report.command, report.seeds, tex_table(columns_of(variants), variants));
+    std::string text = fmt::format(
+        "% {}\n% {}\n% \\input{{tables}} shows both tables; each by itself may be copied into a table of its own. "
+        "With\n"
+        "% \\usepackage{{booktabs}} in the preamble, their lines are those of that package.\n"
+        "\\providecommand{{\\toprule}}{{\\hline}}\n\\providecommand{{\\midrule}}{{\\hline}}\n"
+        "\\providecommand{{\\bottomrule}}{{\\hline}}\n\n% Means and standard deviations over {} seeds.\n{}",
+        report.program, report.command, report.seeds, tex_table(columns_of(variants), variants));
     if (report.pairs.empty()) return text;
     const auto pairs = pair_rows(report);
     return text + fmt::format(

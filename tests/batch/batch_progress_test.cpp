@@ -21,55 +21,90 @@ TEST(TimeLeft, IsTheSumOfTheEstimates) {
     TimeLeft time;
     time.add(10.0);
     time.add(30.0);
-    EXPECT_EQ(time.left(0.0, 0.0), 40.0);
-    time.begin(10.0);
-    EXPECT_EQ(time.left(0.0, 0.0), 40.0);
-    EXPECT_EQ(time.left(4.0, 0.01), 36.0);
+    EXPECT_EQ(time.left(), 40.0);
+    time.begin(0, 10.0, 1.0);
+    EXPECT_EQ(time.left(), 40.0);
+    time.follow(0, 4.0, 0.01);
+    EXPECT_EQ(time.left(), 36.0);
 }
 
 TEST(TimeLeft, IsCorrectedByWhatHasFinished) {
     TimeLeft time;
     time.add(10.0);
     time.add(30.0);
-    time.begin(10.0);
-    time.end(20.0);
-    EXPECT_EQ(time.left(0.0, 0.0), 60.0) << "it all takes twice as long";
-    time.begin(30.0);
-    EXPECT_EQ(time.left(15.0, 0.01), 45.0);
-    EXPECT_EQ(time.left(15.0, 0.5), 15.0) << "the image under way knows better";
-    EXPECT_EQ(time.left(100.0, 0.01), 0.0) << "never less than nothing";
+    time.begin(0, 10.0, 1.0);
+    time.end(0, 20.0);
+    EXPECT_EQ(time.left(), 60.0) << "it all takes twice as long";
+    time.begin(1, 30.0, 1.0);
+    time.follow(1, 15.0, 0.01);
+    EXPECT_EQ(time.left(), 45.0);
+    time.follow(1, 15.0, 0.5);
+    EXPECT_EQ(time.left(), 15.0) << "the image under way knows better";
+    time.follow(1, 100.0, 0.01);
+    EXPECT_EQ(time.left(), 0.0) << "never less than nothing";
 }
 
 TEST(TimeLeft, WithoutEstimatesIsTheMeanOfWhatHasFinished) {
     TimeLeft time;
     for (int i = 0; i < 3; ++i) time.add(kNotKnown);
-    EXPECT_EQ(time.left(0.0, 0.0), kNotKnown);
-    time.begin(kNotKnown);
-    EXPECT_EQ(time.left(1.0, 0.01), kNotKnown);
-    EXPECT_EQ(time.left(1.0, 0.25), 3.0 + 2 * 4.0) << "by the image under way";
-    time.end(6.0);
-    EXPECT_EQ(time.left(0.0, 0.0), 12.0);
-    time.begin(kNotKnown);
-    time.end(kNotKnown);
-    EXPECT_EQ(time.left(0.0, 0.0), 6.0) << "one that failed at once says nothing";
+    EXPECT_EQ(time.left(), kNotKnown);
+    time.begin(0, kNotKnown, 1.0);
+    time.follow(0, 1.0, 0.01);
+    EXPECT_EQ(time.left(), kNotKnown);
+    time.follow(0, 1.0, 0.25);
+    EXPECT_EQ(time.left(), 3.0 + 2 * 4.0) << "by the image under way";
+    time.end(0, 6.0);
+    EXPECT_EQ(time.left(), 12.0);
+    time.begin(1, kNotKnown, 1.0);
+    time.end(1, kNotKnown);
+    EXPECT_EQ(time.left(), 6.0) << "one that failed at once says nothing";
+}
+
+TEST(TimeLeft, CountsImagesAtTheSameTimeByTheirShareOfTheThreads) {
+    TimeLeft time;
+    for (const double seconds : {10.0, 10.0, 20.0}) time.add(seconds);
+    time.begin(0, 10.0, 0.5);
+    time.begin(1, 10.0, 0.5);
+    EXPECT_EQ(time.left(), 40.0) << "two at a time take twice as long each";
+    time.follow(0, 4.0, 0.0);
+    time.follow(1, 4.0, 0.5);
+    EXPECT_EQ(time.left(), (10.0 - 2.0) + (4.0 - 2.0) + 20.0);
+    time.end(0, 20.0);
+    time.end(1, 20.0);
+    EXPECT_EQ(time.left(), 20.0) << "they took what was expected";
+    time.begin(2, 20.0, 0.25);
+    EXPECT_EQ(time.left(), 80.0) << "the longest ends last, whatever is idle";
 }
 
 TEST(FormatLine, TellsHowFarTheBatchIs) {
     const BatchProgressLine line{
-        .done = 12, .failed = 1, .of = 40, .current = "box frame 7", .state = "43%", .elapsed = 62.0, .left = 750.0};
+        .done = 12, .failed = 1, .of = 40, .under_way = {{"box frame 7", "43%"}}, .elapsed = 62.0, .left = 750.0};
     EXPECT_TRUE(
         format_line(line, 100).starts_with("[12/40, 1 failed] box frame 7: 43%  1:02 elapsed, 12:30 left, ends "))
         << format_line(line, 100);
-    EXPECT_EQ(format_line({.done = 1, .of = 3, .current = "box", .state = "load"}, 100),
-              "[1/3] box: load  0.0 s elapsed");
+    EXPECT_EQ(format_line({.done = 1, .of = 3, .under_way = {{"box", "load"}}}, 100), "[1/3] box: load  0.0 s elapsed");
 }
 
 TEST(FormatLine, FitsTheTerminalAndKeepsTheEndOfTheName) {
-    const BatchProgressLine line{.done = 1, .of = 3, .current = "a/very/long/name frame 7", .state = "43%"};
+    const BatchProgressLine line{.done = 1, .of = 3, .under_way = {{"a/very/long/name frame 7", "43%"}}};
     const std::string whole = format_line(line, 200);
     for (int width = 0; width < 200; ++width)
         EXPECT_LE(format_line(line, width).size(), static_cast<std::size_t>(width)) << width;
     EXPECT_EQ(format_line(line, static_cast<int>(whole.size()) - 1).substr(0, 29), "[1/3] ...ry/long/name frame 7");
+}
+
+TEST(FormatLine, ListsImagesAtTheSameTimeAndCountsThoseWithoutRoom) {
+    const BatchProgressLine line{
+        .done = 1, .of = 9, .under_way = {{"shots/a", "43%"}, {"shots/b", "load"}, {"c", "9%"}}};
+    const std::string whole = "[1/9] shots/a: 43%, shots/b: load, c: 9%  0.0 s elapsed";
+    EXPECT_EQ(format_line(line, 100), whole);
+    const int width = static_cast<int>(whole.size());
+    EXPECT_EQ(format_line(line, width), whole);
+    EXPECT_EQ(format_line(line, width - 1), "[1/9] shots/a: 43%, shots/b: load, +1  0.0 s elapsed");
+    EXPECT_EQ(format_line(line, width - 5), "[1/9] shots/a: 43%, +2  0.0 s elapsed");
+    EXPECT_EQ(format_line(line, 36), "[1/9] ...s/a: 43%, +2  0.0 s elapsed");
+    for (int narrow = 0; narrow < width; ++narrow)
+        EXPECT_LE(format_line(line, narrow).size(), static_cast<std::size_t>(narrow)) << narrow;
 }
 
 TEST(FormatClock, NamesTheDayUnlessItIsToday) {
@@ -89,7 +124,7 @@ TEST(BatchLog, HasEveryLineWithItsTime) {
     {
         BatchProgress progress(true, folder / "log", std::chrono::milliseconds(0));
         progress.say("2 of 3 images to render");
-        progress.update({.done = 1, .of = 3, .current = "box", .state = "43%", .left = 60.0});
+        progress.update({.done = 1, .of = 3, .under_way = {{"box", "43%"}}, .left = 60.0});
     }
     BatchProgress(true, folder / "log").say("again");
     const std::string log = read_file(folder / "log");

@@ -559,6 +559,136 @@ TEST_F(Batch, ASecondInterruptEndsEverythingAtOnce) {
     EXPECT_TRUE(wait_until([child] { return !fs::exists(fmt::format("/proc/{}", child)); }));
 }
 
+/// Batches that render several images at the same time.
+class BatchJobs : public Batch {
+  protected:
+    /// How much memory an image needs is known by a probe, which others leave out.
+    [[nodiscard]] Names with_probes(const Names& more) const {
+        Names all = arguments(more);
+        std::erase(all, "--no-probe");
+        return all;
+    }
+    [[nodiscard]] json report() const {
+        return json::parse(fs::exists(work_ / "out/report.json") ? read_file(work_ / "out/report.json") : "{}", nullptr,
+                           false);
+    }
+    /// Waits until so many images are under way.
+    [[nodiscard]] bool wait_for_running(const RunningProgram& batch, int images) const {
+        return wait_until([&] {
+            const json now = report();
+            return batch.has_ended() || (now.contains("totals") && now["totals"]["running"] == images);
+        });
+    }
+};
+
+TEST_F(BatchJobs, MakeTheSameImagesAndReport) {
+    for (const char* name : {"a", "b", "c/d", "e"}) add_scene(name);
+    add_scene("f", R"("camera_": 3,)");
+    const auto result_of = [&](const Names& more) {
+        const ProgramResult result = run_etendue(with_probes(more), work_);
+        EXPECT_EQ(result.exit_code, 1) << result.err;
+        json report = json::parse(read_file(work_ / "out/report.json"));
+        std::map<std::string, std::string> images;
+        for (const json& unit : report["units"])
+            if (unit["outcome"] == "rendered") images[unit["name"]] = read_file(work_ / "out" / unit["preview"]);
+        for (json& unit : report["units"])
+            for (const char* key : {"seconds", "estimated_seconds", "rays_per_second", "peak_memory_bytes"})
+                unit.erase(key);
+        fs::rename(work_ / "out/a.exr", work_ / (more.empty() ? "one.exr" : "three.exr"));
+        fs::remove_all(work_ / "out");
+        report["totals"].erase("seconds");
+        report["totals"].erase("peak_memory_bytes");
+        return std::pair(images, json{report["units"], report["totals"]});
+    };
+    const auto one = result_of({});
+    EXPECT_EQ(one.first.size(), 4u);
+    EXPECT_EQ(result_of({"--jobs", "3", "--threads", "3"}), one);
+    const ProgramResult difference = run_etendue({"diff", "one.exr", "three.exr", "--json"}, work_);
+    EXPECT_EQ(json::parse(difference.out)["measures"]["mse"]["value"], 0.0) << difference.out;
+}
+
+TEST_F(BatchJobs, AreInterruptedTogetherAndGoOnTogether) {
+    for (const char* name : {"a", "b", "c"}) {
+        add_scene(name);
+        write_file(folder_ / fmt::format("scenes/{}/render.json", name),
+                   R"({"size": [64, 48], "spp": 600, "environment": {}, "integrator": {"type": "path"}})");
+    }
+    RunningProgram batch(with_probes({"--jobs", "2", "--threads", "2", "--checkpoint-every", "0.001"}), work_);
+    ASSERT_TRUE(wait_for_running(batch, 2));
+    ASSERT_TRUE(wait_until([&] {
+        return batch.has_ended() || (fs::exists(work_ / "out/a.checkpoint") && fs::exists(work_ / "out/b.checkpoint"));
+    }));
+    batch.send(SIGINT);
+    const ProgramResult result = batch.wait();
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_EQ(count("unit interrupted"), (std::map<std::string, int>{{"a", 1}, {"b", 1}})) << result.err;
+    EXPECT_EQ(count("unit started").size(), 2u) << "nothing else is begun";
+    EXPECT_FALSE(fs::exists(work_ / "out/.etendue"));
+    EXPECT_EQ(report()["totals"]["interrupted"], 2);
+    EXPECT_EQ(json::parse(read_file(work_ / "out/a.json"))["threads"], 1) << "its share";
+    const ProgramResult next = run_etendue(with_probes({"--jobs", "2"}), work_);
+    EXPECT_EQ(next.exit_code, 0) << next.err;
+    expect_tidy();
+    for (const char* name : {"out/a.exr", "out/b.exr"}) {
+        const json difference = json::parse(run_etendue({"diff", name, "out/c.exr", "--json"}, work_).out);
+        EXPECT_EQ(difference["measures"]["mse"]["value"], 0.0) << "of the same scene without a pause";
+    }
+}
+
+TEST_F(BatchJobs, ACrashFailsItsImageOnly) {
+    add_slow_scene("a", 60.0);
+    add_slow_scene("b", 0.7);
+    add_scene("c");
+    RunningProgram batch(with_probes({"--jobs", "2", "--retries", "0"}), work_);
+    int child = 0;
+    ASSERT_TRUE(wait_until([&] {
+        for (const int each : children_of(batch.pid())) {
+            const std::string command = command_of(each);
+            if (command.find("scenes/a") != std::string::npos && command.find("--probe") == std::string::npos &&
+                command.starts_with(std::string("etendue\0render", 14)) && handles_interrupt(each))
+                child = each;
+        }
+        return child != 0 || batch.has_ended();
+    }));
+    ASSERT_NE(child, 0);
+    kill(child, SIGSEGV);
+    const ProgramResult result = batch.wait();
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"b", 1}, {"c", 1}}));
+    EXPECT_EQ(events("unit failed").front()["signal"], "SIGSEGV");
+    EXPECT_EQ(report()["units"][0]["outcome"], "failed");
+    expect_tidy();
+}
+
+TEST_F(BatchJobs, WaitForMemoryAndSaySoOnce) {
+    for (const char* name : {"a", "b", "c"}) add_scene(name);
+    const ProgramResult result = run_etendue(with_probes({"--jobs", "3", "--jobs-memory", "256M"}), work_);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t first = result.err.find("waits for memory");
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("waits for memory", first + 1), std::string::npos) << result.err;
+    std::istringstream ledger(read_file(work_ / "out/ledger.jsonl"));
+    int under_way = 0;
+    for (std::string line; std::getline(ledger, line);) {
+        const std::string event = json::parse(line)["event"];
+        under_way += event == "unit started" ? 1 : event == "unit finished" ? -1 : 0;
+        EXPECT_LE(under_way, 1) << line;
+    }
+    EXPECT_EQ(count("unit finished").size(), 3u);
+}
+
+TEST_F(BatchJobs, WithoutSenseAreUsageErrors) {
+    add_scene("a");
+    for (const Names& wrong :
+         {Names{"--jobs", "0"}, Names{"--jobs", "2x"}, Names{"--jobs", "2"}, Names{"--jobs", "2", "--in-process"},
+          Names{"--jobs-memory", "1G"}, Names{"--jobs", "auto", "--jobs-memory", "1"}}) {
+        const ProgramResult result = run(wrong);
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+        EXPECT_NE(result.err.find("--jobs"), std::string::npos) << result.err;
+        EXPECT_TRUE(list(work_).empty());
+    }
+}
+
 /// Batches that render in processes of their own, and in this.
 class BatchEitherWay : public Batch, public testing::WithParamInterface<bool> {
   protected:

@@ -420,7 +420,7 @@ TEST_F(Compare, EachPairHasItsOwnScaleOfZ) {
 
 TEST_F(Compare, EachIntegratorSaysWhatItCannotFind) {
     const ProgramResult result = compare_aloud({"--spp", "1", "--seeds", "1", "--integrators", "path,light",
-                                                "--reference-integrator", "light", "--reference-seconds", "0.01"});
+                                                "--reference-integrator", "light", "--reference-time", "0.01"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_LT(result.err.find("note: light: the environment itself is not seen"), result.err.find("path 1/1"))
         << "at start: " << result.err;
@@ -431,7 +431,7 @@ TEST_F(Compare, EachIntegratorSaysWhatItCannotFind) {
 
 TEST_F(Compare, SaysWhyAnInterruptLeftNoReference) {
     RunningProgram program({"compare", (folder_ / "box").string(), "-o", "report", "--spp", "1", "--seeds", "1",
-                            "--reference-integrator", "naive", "--reference-seconds", "600"},
+                            "--reference-integrator", "naive", "--reference-time", "600"},
                            work_);
     // Once the last variant is rendered, the reference is.
     EXPECT_TRUE(wait_until([&] { return program.messages().find("bdpt 1/1") != std::string::npos; }));
@@ -454,7 +454,7 @@ TEST_F(Compare, MeasuresAgainstAFileOrAnotherIntegrator) {
     EXPECT_GT(report()["variants"][0]["errors"]["relmse"]["mean"], 0.0);
     EXPECT_EQ(report()["variants"][0]["seeds"], json{1}) << "0 is the reference's";
     EXPECT_NE(notes().find("seeds begin with 1, after those of the reference"), std::string::npos) << notes();
-    ASSERT_EQ(compare({"--spp", "2", "--seeds", "1", "--reference-integrator", "bdpt", "--reference-seconds", "0.1",
+    ASSERT_EQ(compare({"--spp", "2", "--seeds", "1", "--reference-integrator", "bdpt", "--reference-time", "0.1",
                        "--strategies-depth", "0"})
                   .exit_code,
               0);
@@ -497,7 +497,7 @@ TEST_F(Compare, SaysWhichColourSpaceAReferenceIsTakenToBeIn) {
 }
 
 TEST_F(Compare, TimesAreEqual) {
-    ASSERT_EQ(compare({"--seconds", "0.4", "--seeds", "1", "--strategies-depth", "0"}).exit_code, 0);
+    ASSERT_EQ(compare({"--time", "0.4", "--seeds", "1", "--strategies-depth", "0"}).exit_code, 0);
     const json report = this->report();
     EXPECT_EQ(report["settings"]["time"], "cpu");
     EXPECT_DOUBLE_EQ(report["settings"]["seconds"], 0.4 * report["machine"]["threads"].get<int>());
@@ -510,19 +510,35 @@ TEST_F(Compare, TimesAreEqual) {
     EXPECT_NEAR(path["rays_per_second"].get<double>() * path["cpu_seconds"]["mean"].get<double>(), path["rays"], 1.0);
 }
 
+TEST_F(Compare, OldNamesOfOptionsAreTheirNewOnes) {
+    const ProgramResult result =
+        compare_aloud({"--seconds", "0.01", "--integrators", "path", "--seeds", "1", "--reference-integrator", "direct",
+                       "--reference-seconds", "0.01", "--strategies-depth", "0"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("note: --seconds is --time now\n"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("note: --reference-seconds is --reference-time now\n"), std::string::npos) << result.err;
+    const json report = this->report();
+    const std::string command = report["command"];
+    EXPECT_NE(command.find("--time '0.01'"), std::string::npos) << command;
+    EXPECT_EQ(command.find("seconds"), std::string::npos) << command;
+    EXPECT_DOUBLE_EQ(report["settings"]["seconds"], 0.01 * report["machine"]["threads"].get<int>());
+    const ProgramResult both = compare({"--seconds", "1", "--time", "1"});
+    EXPECT_EQ(both.exit_code, 2) << both.err;
+    EXPECT_EQ(compare({"--seconds", "nan"}).exit_code, 2);
+}
+
 TEST_F(Compare, SaysWhatIsWrong) {
-    EXPECT_EQ(compare({"--spp", "1", "--seconds", "1"}).exit_code, 2);
-    EXPECT_EQ(compare({"--time", "1"}).exit_code, 2);
+    EXPECT_EQ(compare({"--spp", "1", "--time", "1"}).exit_code, 2);
     for (const char* number : {"nan", "inf", "-nan", "0", "-1"}) {
-        EXPECT_EQ(compare({"--seconds", number}).exit_code, 2) << number;
-        EXPECT_EQ(compare({"--reference-integrator", "path", "--reference-seconds", number}).exit_code, 2) << number;
+        EXPECT_EQ(compare({"--time", number}).exit_code, 2) << number;
+        EXPECT_EQ(compare({"--reference-integrator", "path", "--reference-time", number}).exit_code, 2) << number;
     }
     EXPECT_EQ(compare({"--integrators", "path,bdpt,path"}).exit_code, 2);
     EXPECT_EQ(compare({"--region", "a:0,0,1,1", "--region", "a:1,1,2,2"}).exit_code, 2);
     for (const char* common : {"--half", "--float", "--frames=1"}) EXPECT_EQ(compare({common}).exit_code, 2) << common;
     EXPECT_EQ(compare({"--integrators", "path,magic"}).exit_code, 2);
     EXPECT_EQ(compare({"--region", "0,0,1,1"}).exit_code, 2);
-    EXPECT_EQ(compare({"--reference-seconds", "3"}).exit_code, 2);
+    EXPECT_EQ(compare({"--reference-time", "3"}).exit_code, 2);
     const ProgramResult option = compare({"--variant", "a: --max-dept 3"});
     EXPECT_EQ(option.exit_code, 2);
     EXPECT_NE(option.err.find("in the options of a variant, '--max-dept 3': there is no option '--max-dept' of "
@@ -549,9 +565,9 @@ TEST_F(Compare, SaysWhatIsWrong) {
 
 TEST_F(Compare, HelpLeavesOutWhatIsRefused) {
     const std::string help = run_etendue({"compare", "--help"}, work_).out;
-    for (const char* option : {"--time ", "--frames", "--half", "--float"})
+    for (const char* option : {"--frames", "--half", "--float", "--seconds"})
         EXPECT_EQ(help.find(option), std::string::npos) << option;
-    for (const char* option : {"--seed ", "--spp", "--max-depth"})
+    for (const char* option : {"--seed ", "--spp", "--time ", "--max-depth"})
         EXPECT_NE(help.find(option), std::string::npos) << option;
 }
 

@@ -92,7 +92,7 @@ TEST_F(Diff, TheSecondImageIsTheReference) {
 
 TEST_F(Diff, JsonSaysWhatWasMeasuredAndHow) {
     const json result = diff_json({exr("a", ramp(20, 10, 0.1f)), exr("b", ramp(20, 10, 0.2f)), "--metric", "SMAPE,flip",
-                                   "--ppd", "30", "--exposures", "-2:1.5", "--region", "5,0,15,4"});
+                                   "--ppd", "30", "--exposures", "-2:1.5", "--crop", "5,0,15,4"});
     EXPECT_EQ(result["image"]["file"], "../a.exr");
     EXPECT_EQ(result["image"]["size"], (json{20, 10}));
     EXPECT_EQ(result["reference"]["color_space"], "ACEScg");
@@ -272,6 +272,15 @@ TEST_F(Diff, WhatCannotBeComparedEndsWithThree) {
     EXPECT_EQ(diff({small, "../text.exr"}).exit_code, 3);
 }
 
+TEST_F(Diff, TheOldNameOfCropIsNoted) {
+    const std::string a = exr("a", ramp(8, 8, 0.1f));
+    const ProgramResult old = diff({a, a, "--region", "0,0,2,3"});
+    EXPECT_EQ(old.exit_code, 0) << old.err;
+    EXPECT_EQ(old.err, "note: --region is --crop now\n");
+    EXPECT_EQ(diff({a, a, "--crop", "0,0,2,3"}).out, old.out);
+    EXPECT_EQ(diff({a, a, "--region", "0,0,2,3", "--quiet"}).err, "");
+}
+
 TEST_F(Diff, UsageErrorsEndWithTwo) {
     const std::string a = exr("a", ramp(8, 8, 0.1f));
     const std::vector<std::vector<std::string>> bad = {{a},
@@ -280,8 +289,8 @@ TEST_F(Diff, UsageErrorsEndWithTwo) {
                                                        {a, a, "--fail-above", "psnr=3"},
                                                        {a, a, "--fail-above", "mse=-1"},
                                                        {a, a, "--map", "map.jpg"},
-                                                       {a, a, "--region", "0,0,9,8"},
-                                                       {a, a, "--region", "4,4,4,4"},
+                                                       {a, a, "--crop", "0,0,9,8"},
+                                                       {a, a, "--crop", "4,4,4,4"},
                                                        {a, a, "--exposures", "3:1"},
                                                        {a, a, "--ppd", "0"},
                                                        {a, a, a}};
@@ -316,7 +325,7 @@ TEST_F(Diff, CropWindowsAreComparedWhereTheyOverlap) {
     const ImageInfo map = read_image_info(work_ / "map.exr");
     EXPECT_EQ(map.data_window, (PixelRect{6, 3, 9, 10}));
     EXPECT_EQ(map.display_window, (PixelRect{0, 0, 16, 12}));
-    EXPECT_EQ(diff({left, full, "--region", "0,0,4,4"}).exit_code, 2);
+    EXPECT_EQ(diff({left, full, "--crop", "0,0,4,4"}).exit_code, 2);
     const ProgramResult apart = diff({left, far});
     EXPECT_EQ(apart.exit_code, 3);
     EXPECT_TRUE(contains(apart.err, "no pixel in common")) << apart.err;

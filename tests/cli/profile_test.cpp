@@ -284,7 +284,7 @@ TEST_F(Profile, SaysWhatIsWrongWithOptions) {
         EXPECT_NE((result.out + result.err).find(message), std::string::npos) << result.out << result.err;
         EXPECT_FALSE(fs::exists(work_ / "out")) << "nothing is written";
     };
-    refuses({"--spp", "4", "--seconds", "1"}, "cannot be given with --spp");
+    refuses({"--spp", "4", "--time", "1"}, "cannot be given with --spp");
     refuses({"--integrators", "path,path"}, "named twice");
     refuses({"--threads", "2,2"}, "given twice");
     refuses({"--threads", "0"}, "--threads");
@@ -293,9 +293,9 @@ TEST_F(Profile, SaysWhatIsWrongWithOptions) {
     refuses({"--tolerance", "0.1"}, "--against");
     write_file(work_ / "baseline.json", "{}");
     refuses({"--against", "baseline.json", "--repeat", "1"}, "--repeat 2 or more");
-    for (const Names& option : {Names{"--integrator", "path"}, Names{"--aov", "depth"}, Names{"--aov-layout", "parts"},
-                                Names{"--deep"}, Names{"--robust", "mon:3"}, Names{"--time", "3"},
-                                Names{"--error", "1"}, Names{"--no-adaptive"}, Names{"--half"}}) {
+    for (const Names& option :
+         {Names{"--integrator", "path"}, Names{"--aov", "depth"}, Names{"--aov-layout", "parts"}, Names{"--deep"},
+          Names{"--robust", "mon:3"}, Names{"--error", "1"}, Names{"--no-adaptive"}, Names{"--half"}}) {
         refuses(option, option[0] + ": is for 'render'; here ");
         const ProgramResult result = profile(option);
         EXPECT_EQ(result.err.find("variant"), std::string::npos) << result.err;

@@ -8,6 +8,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -28,10 +30,11 @@ SettingsOverrides small_image() {
 /// An explorer of a small scene, at work on a thread of its own.
 class AtWork {
   public:
-    AtWork() {
+    explicit AtWork(Explorer::TakeImage take = {}) {
         write_scene(folder_.path());
         explorer_.emplace(prepare_scene(folder_.path(), small_image()),
-                          std::vector<GivenOption>{{"", folder_.path().string()}, {"--size", "48x36"}}, threads_);
+                          std::vector<GivenOption>{{"", folder_.path().string()}, {"--size", "48x36"}}, threads_,
+                          std::move(take));
         thread_ = std::thread([this] { explorer_->run([this] { return is_ended_.load(); }); });
     }
     ~AtWork() {
@@ -128,6 +131,25 @@ TEST(Explorer, GivesBothImagesEqualTime) {
     // A pass takes a fifth of a second at most, in each of two threads.
     EXPECT_LT(std::abs(sides[0].cpu_seconds - sides[1].cpu_seconds), 0.5);
     EXPECT_GT(sides[0].cpu_seconds, 0.0);
+}
+
+TEST(Explorer, HandsWholeImagesOverThoughNobodyLooks) {
+    std::mutex mutex;
+    std::map<std::string, std::pair<int, int>> sizes;
+    const AtWork work([&](const std::string& name, const OutputFrame& frame) {
+        const std::scoped_lock lock(mutex);
+        sizes[name] = {frame.pixels.width, frame.pixels.height};
+    });
+    const auto count = [&] {
+        const std::scoped_lock lock(mutex);
+        return sizes.size();
+    };
+    for (int tries = 0; tries < 2000 && count() == 0; ++tries)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const std::scoped_lock lock(mutex);
+    ASSERT_FALSE(sizes.empty());
+    EXPECT_TRUE(sizes.begin()->first.ends_with(", left: path")) << sizes.begin()->first;
+    EXPECT_EQ(sizes.begin()->second, std::pair(48, 36));
 }
 
 TEST(Explorer, MovesACameraFinelyFarFromTheOrigin) {

@@ -157,6 +157,25 @@ TEST(TevViewer, SendsEachImageUnderItsOwnName) {
     }
 }
 
+TEST(TevViewer, MakesAnImageOnceThoughOthersComeBetween) {
+    const FakeTev tev;
+    OutputFrame frame;
+    frame.pixels = ImageF(1, 1, 4);
+    {
+        TevViewer viewer(tev.address());
+        for (const char* name : {"left", "right", "left", "right"}) {
+            viewer.show(name, frame);
+            ::usleep(20'000);  // long enough for it to be sent
+        }
+    }
+    const std::string sent = tev.receive();
+    for (const char* name : {"left", "right"}) {
+        const std::string create = std::string({4, 1}) + name + std::string({0, 1, 0, 0, 0});
+        ASSERT_NE(sent.find(create), std::string::npos) << name;
+        EXPECT_EQ(sent.find(create), sent.rfind(create)) << name;
+    }
+}
+
 TEST(TevViewer, WarnsOnceAndWantsNothingMoreIfTevIsNotThere) {
     TevAddress nowhere;
     {

@@ -5,6 +5,7 @@
 #include "program/run_program.h"
 #include "program/small_files.h"
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -96,6 +97,22 @@ TEST(ChildProcess, PassesSignalsOn) {
     EXPECT_EQ(child.end().exit_code, 9);
     EXPECT_EQ(child.last_messages().back(), "caught");
     child.send(SIGTERM);  // nobody gets it
+}
+
+TEST(ChildProcess, SeveralAreWaitedForTogether) {
+    ChildProcess silent(shell("exec sleep 100"));
+    ChildProcess ends(shell("sleep 0.05; echo over >&2"));
+    const std::array<const ChildProcess*, 2> both{&silent, &ends};
+    Lines messages;
+    const auto take = [&](const std::string& line) { messages.push_back(line); };
+    const auto start = std::chrono::steady_clock::now();
+    do ChildProcess::wait_for_any(both, std::chrono::seconds(50));
+    while (ends.wait(std::chrono::milliseconds(0), take, take));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(40));
+    EXPECT_EQ(messages, Lines{"over"});
+    EXPECT_TRUE(silent.wait(std::chrono::milliseconds(0), take, take));
+    EXPECT_GT(silent.own_memory_bytes(), 0u);
+    EXPECT_EQ(ends.own_memory_bytes(), 0u);
 }
 
 TEST(ChildProcess, AProgramThatCannotBeStartedIsAnError) {

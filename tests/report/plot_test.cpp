@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace etendue {
@@ -96,6 +97,22 @@ TEST(ComparisonFiles, TexMasksWhatIsItsOwn) {
     const std::string tex = to_tex(two_variants());
     EXPECT_NE(tex.find("path\\_1 & 4 & $1.50$ & $1.50$ & $0.375$ $\\pm$ $0.177$"), std::string::npos) << tex;
     EXPECT_NE(tex.find("50\\% & "), std::string::npos) << tex;
+    ComparisonReport odd = two_variants();
+    odd.variants[0].name = R"([a] *b* #1 $2 &3 {4} ~5 ^6 \7 <8> |9| "0" x_y)";
+    const std::string row = R"({[}a{]} {*}b{*} \#1 \$2 \&3 \{4\} \textasciitilde{}5 \textasciicircum{}6 )"
+                            R"(\textbackslash{}7 \textless{}8\textgreater{} \textbar{}9\textbar{} \char34{}0\char34{} )"
+                            R"(x\_y & 4 & )";
+    EXPECT_NE(to_tex(odd).find("\\midrule\n" + row), std::string::npos) << to_tex(odd);
+}
+
+/// That pdfLaTeX takes the file, with booktabs or without, was tried by hand.
+TEST(ComparisonFiles, TexNeedsNoPackage) {
+    const std::string tex = to_tex(two_variants());
+    std::size_t defined = 0;
+    for (const char* line : {"\\toprule", "\\midrule", "\\bottomrule"})
+        if (tex.find(fmt::format("\\providecommand{{{}}}{{\\hline}}", line)) < tex.find("\\begin{tabular}")) ++defined;
+    EXPECT_EQ(defined, 3u) << tex;
+    EXPECT_EQ(std::count(tex.begin(), tex.end(), '{'), std::count(tex.begin(), tex.end(), '}'));
 }
 
 TEST(ComparisonFiles, PlotsAreOfEachMetricOverTimeAndSamples) {
