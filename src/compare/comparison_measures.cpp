@@ -296,7 +296,7 @@ std::string off_budget(const ComparisonReport& report) {
         if (const double time = report.time_of(variant).mean(); std::abs(time / *report.seconds - 1.0) > kMostOff)
             off.push_back(fmt::format("'{}' {:.3g} s", variant.name, time));
     if (off.empty()) return "";
-    return fmt::format("in place of {:.3g} s of {}, renders took in the mean: {}; more --seconds come nearer to it",
+    return fmt::format("in place of {:.3g} s of {}, renders took in the mean: {}; a longer --time comes nearer to it",
                        *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
 }
 
