@@ -93,5 +93,9 @@ template <typename T = float>
     const auto above = u.y > u.x;
     return {select(above, half, u.x - half), select(above, u.y - half, half)};
 }
+/// Returns the place in [0, 1)² that `square_to_triangle` takes to `b`.
+[[nodiscard]] inline Vec2f triangle_to_square(Vec2f b) {
+    return b.y > b.x ? Vec2f{2.0f * b.x, b.y + b.x} : Vec2f{b.x + b.y, 2.0f * b.y};
+}
 
 }  // namespace etendue

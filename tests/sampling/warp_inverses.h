@@ -80,9 +80,4 @@ namespace etendue::test {
     return {sphere_to_square(w).x, (1.0f - w.z) / (1.0f - cos_max)};
 }
 
-/// Returns the numbers that square_to_triangle maps to `b`.
-[[nodiscard]] inline Vec2f triangle_to_square(Vec2f b) {
-    return b.y > b.x ? Vec2f{2.0f * b.x, b.y + b.x} : Vec2f{b.x + b.y, 2.0f * b.y};
-}
-
 }  // namespace etendue::test
