@@ -282,9 +282,8 @@ std::string reference_noise(const ComparisonReport& report) {
     // A pooled one has that much in any case.
     if (report.reference.kind == "pooled" || !std::isfinite(least) || !(noise > kMuch * least)) return "";
     return fmt::format(
-        "the reference's own noise, a relMSE of {:.3g}, is {:.0f}% of the least relMSE: it is taken off relMSE and "
-        "MSE, "
-        "and the other errors are so much too large; a longer reference has less",
+        "the reference's own noise, a relMSE of {:.3g}, is {:.0f}% of the least relMSE: it is taken off relMSE and MSE "
+        "as well as it is known, and adds to the other errors; a longer reference has less",
         noise, 100.0 * noise / least);
 }
 

@@ -250,8 +250,7 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
     if (!untested.empty())
         notes.push_back(
             fmt::format("the reference has no part of {}: so few pixels make up the image that nothing can be said "
-                        "about whether it "
-                        "agrees with the others, which its errors are against",
+                        "about whether it agrees with the others, which its errors are against",
                         names_text(variants, untested)));
     const Variant& first = variants[members.front()];
     const std::string& integrator = first.settings.integrator.type;

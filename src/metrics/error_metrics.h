@@ -46,7 +46,8 @@ struct ErrorMetrics {
 /// Throws std::invalid_argument if they are not, or are empty. Values that are not finite make the measures not finite;
 /// so does a selection of no pixels.
 /// `variance` is that of each value of the reference, which is independent of the image, or empty: it is taken off the
-/// squared errors, so that relMSE, trimmed too, and MSE are in expectation those against a reference without noise.
+/// squared errors, so that MSE is in expectation that against a reference without noise, and so is relMSE, trimmed or
+/// not, but for the noise of its denominator.
 [[nodiscard]] ErrorMetrics compute_error_metrics(const ImageF& image, const ImageF& reference,
                                                  const PixelSelection& selection = {},
                                                  std::span<const float> variance = {});

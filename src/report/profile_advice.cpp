@@ -192,8 +192,7 @@ std::string busy_machine(const ProfileRun& run) {
     if (!(taken > kMostTaken)) return "";
     return fmt::format(
         "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times and efficiency hold, "
-        "but "
-        "seconds of stages, rays per second and all else by the clock do not",
+        "but seconds of stages, rays per second and all else by the clock do not",
         run.integrator, run.threads, human_percent(taken));
 }
 

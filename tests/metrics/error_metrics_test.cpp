@@ -76,7 +76,8 @@ TEST(ErrorMetrics, DoNotHideWhatIsNoNumber) {
 
 TEST(ErrorMetrics, RefuseImagesOfDifferentShape) {
     EXPECT_THROW((void)compute_error_metrics(ImageF(2, 1, 3), ImageF(1, 2, 3)), std::invalid_argument);
-    EXPECT_THROW((void)compute_error_metrics(row({1.0f}), row({1.0f}), {}, std::array{1.0f}), std::invalid_argument);
+    EXPECT_THROW((void)compute_error_metrics(row({1.0f}), row({1.0f}), {}, std::array{1.0f, 2.0f}),
+                 std::invalid_argument);
     EXPECT_THROW((void)compute_error_metrics(ImageF(2, 1, 3), ImageF(2, 1, 4)), std::invalid_argument);
     EXPECT_THROW((void)compute_error_metrics(ImageF(), ImageF()), std::invalid_argument);
 }

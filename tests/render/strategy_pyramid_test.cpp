@@ -76,7 +76,8 @@ TEST(RenderStrategies, AddUpToTheImageWhereLampsInMirrorsAreFound) {
     const World world = compile(std::move(scene));
     const ThreadPool threads(2);
     const std::atomic<bool> stop{false};
-    const RenderOptions options = whole_image(12, 12, 4);
+    const RenderOptions options =
+        whole_image(12, 12, 64);  // two samples each of the lamp, of which one in ten meets it
     const IntegratorSettings integrator{.type = "bdpt", .lengths = {.max_depth = 3}};
     const std::vector<StrategyImage> images =
         render_strategies(world, integrator, strategies_between(1, 3), options, threads, stop, {});
