@@ -160,7 +160,7 @@ TEST_F(ReliefBelowPixels, IsTheSameThroughTheCacheOfTiles) {
     scene.settings.texture_memory = 1;  // too little for the map
     const World cached = compile(std::move(scene));
     ASSERT_GT(cached.statistics().texture_cache_budget, 0u);
-    const Difference difference = compare(means(cached, kSmall, 64), means(in_memory, kSmall, 64));
+    const Difference difference = compare(means(cached, kSmall, 128), means(in_memory, kSmall, 128));
     EXPECT_LT(difference.whole, 0.003);
     EXPECT_LT(difference.block, 0.005);
 }

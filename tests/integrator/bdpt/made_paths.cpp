@@ -60,7 +60,7 @@ WalkedSubpath walk(const SubpathSample& sample, const Subpath& subpath, int roul
         if (vertex.kind != Vertex::Kind::Medium) continue;
         const auto next =
             std::ranges::find_if(arrivals, [&](const Arrived& a) { return a.vertex.index > vertex.index; });
-        arrivals.insert(next, {subpath, {vertex, vertex.index}, {}});
+        arrivals.insert(next, {subpath, {static_cast<const Vertex&>(vertex), vertex.index}, {}});
     }
     for (std::size_t i = 0; i < arrivals.size(); ++i) {
         WalkedVertex& vertex = arrivals[i].vertex;

@@ -120,8 +120,8 @@ TEST(PathIntegrator, StrategiesAgreeOnALampAndAGlossyWall) {
         EXPECT_GT(by_mis.mean.g, 0.01f);
         EXPECT_NEAR(by_mis.mean.g, by_chance.mean.g, 5.0 * std::hypot(by_mis.error, by_chance.error))
             << "roughness " << roughness;
-        // Multiple importance sampling is there to lower the noise.
-        EXPECT_LT(by_mis.error, by_chance.error);
+        // Multiple importance sampling is there to lower the noise of as many samples.
+        EXPECT_LT(by_mis.error, std::sqrt(8192.0 / 1024.0) * by_chance.error);
     }
 }
 
