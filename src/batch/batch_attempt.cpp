@@ -1,6 +1,7 @@
 #include "batch/batch_attempt.h"
 
 #include "core/error.h"
+#include "picture/output_paths.h"
 #include "render/checkpoint.h"
 #include "session/exit_code.h"
 #include "session/image_job.h"
@@ -179,7 +180,9 @@ Attempt denoise_in_child(const BatchTask& task, const BatchOptions& options, con
     Attempt attempt = run_in_child(std::move(arguments), options, 0.0, callbacks);
     if (attempt.end != AttemptEnd::Done || !options.overrides.png) return attempt;
     const std::string preview = fs::path(denoised).replace_extension(".png").string();
-    return run_in_child({"view", denoised, "-o", preview}, options, 0.0, callbacks);
+    std::vector<std::string> view = display_arguments(OutputPaths::beside(task.job.output).json);
+    view.insert(view.begin(), {"view", denoised, "-o", preview});
+    return run_in_child(std::move(view), options, 0.0, callbacks);
 }
 
 Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,

@@ -10,6 +10,7 @@
 #include "session/exit_code.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
+#include "session/up_to_date.h"
 
 #include <algorithm>
 #include <chrono>
@@ -63,6 +64,23 @@ BatchUnit planned_unit(const PlannedUnit& planned, const BatchOptions& options) 
     return unit;
 }
 
+/// Returns what is known of a unit that is left as it is, without loading its scene.
+BatchUnit left_out_unit(const BatchTask& task, const BatchOptions& options, const LedgerHistory& history) {
+    BatchUnit unit = unknown_unit(task, options);
+    unit.is_chosen = false;
+    unit.outcome = UnitOutcome::NotChosen;
+    const OutputPaths paths = OutputPaths::beside(task.job.output, options.overrides.png);
+    const LedgerHistory::Entry* const last = history.find(task.id);
+    if (last != nullptr && last->kind == LedgerEventKind::UnitFailed) {
+        unit.outcome = UnitOutcome::Failed;
+        unit.error = last->error;
+    } else if (!why_unfinished(paths) && !why_outdated(paths, task.job.scene)) {
+        unit.outcome = UnitOutcome::UpToDate;
+        read_statistics(paths.json, unit);
+    }
+    return unit;
+}
+
 /// True if the attempt ended because the checkpoint that it was to go on with is of no use: it is damaged, or of
 /// another render. What merely cannot be read, or used for want of memory, is worth another attempt.
 bool was_refused(const Attempt& attempt) {
@@ -76,10 +94,10 @@ bool would_fail_here(const LedgerHistory::Entry& failure, const std::string& hos
 
 }  // namespace
 
-BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tasks, LedgerHistory& history,
-                         BatchProgress& progress, BatchWatcher* watcher)
+BatchRunner::BatchRunner(const BatchOptions& options, BatchTasks tasks, LedgerHistory& history, BatchProgress& progress,
+                         BatchWatcher* watcher)
     : options_(options),
-      tasks_(std::move(tasks)),
+      tasks_(std::move(tasks.chosen)),
       history_(history),
       progress_(progress),
       watcher_(watcher),
@@ -96,6 +114,8 @@ BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tas
     report_.host = this_process().host;
     report_.threads = options.threads > 0 ? options.threads : ThreadPool(0).thread_count();
     for (const BatchTask& task : tasks_) report_.units.push_back(unknown_unit(task, options_));
+    for (const BatchTask& task : tasks.left_out) left_out_.push_back(left_out_unit(task, options_, history_));
+    report_.units.insert(report_.units.end(), left_out_.begin(), left_out_.end());
     write_reports(true);
 }
 
@@ -125,6 +145,7 @@ const BatchPlan& BatchRunner::plan() {
         std::istringstream lines(unit.error);
         for (std::string line; std::getline(lines, line);) said_[unit.task.job.scene].insert(line);
     }
+    report_.units.insert(report_.units.end(), left_out_.begin(), left_out_.end());
     return plan_;
 }
 
@@ -133,6 +154,15 @@ void BatchRunner::abandon() {
     report_.ended = utc_time();
     write_reports(true);
     tidy();
+}
+
+void BatchRunner::fail_all() {
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+        if (!plan_[i].is_stale()) continue;
+        report_.units[i].outcome = UnitOutcome::Failed;
+        end_record(i, {.end = AttemptEnd::Failed, .error = plan_[i].error}, 0.0, false);
+    }
+    abandon();
 }
 
 void BatchRunner::run() {
@@ -158,6 +188,8 @@ void BatchRunner::run() {
     report_.ended = utc_time();
     report_.state = BatchState::Ended;
     report_.seconds_left.reset();
+    if (report_.interrupted && options_.force)
+        progress_.say("--force makes all images anew, also those that this batch has made, if it is started again");
     books_.append({.kind = LedgerEventKind::BatchFinished,
                    .seconds = seconds_since(start_),
                    .units = plan_.size(),
@@ -280,6 +312,7 @@ bool BatchRunner::make(std::size_t index, BatchLock& lock) {
         unit.outcome = UnitOutcome::Running;
         write_reports(false);
         Attempt result = attempt(index, how, lock);
+        if (result.end == AttemptEnd::Done) how.force = false;  // whatever fails now, the image is there
         if (result.end == AttemptEnd::Done && options_.denoise) result = denoise(index, lock);
         unit.fraction.reset();
         unit.seconds_left.reset();
@@ -294,7 +327,7 @@ bool BatchRunner::make(std::size_t index, BatchLock& lock) {
             return true;
         }
         if (!is_refused) ++retries;
-        how = {.resume = !is_refused, .force = is_forced};
+        how.resume = !is_refused;
         progress_.say(fmt::format("{}: {}; {}", unit.name, failure_in_words(result),
                                   is_refused ? "begins anew without the checkpoint"
                                              : fmt::format("tries again ({} of {})", retries, options_.retries)));
@@ -303,6 +336,9 @@ bool BatchRunner::make(std::size_t index, BatchLock& lock) {
 
 Attempt BatchRunner::attempt(std::size_t index, const AttemptOptions& how, BatchLock& lock) {
     const BatchTask& task = plan_[index].task;
+    if (options_.denoise)
+        if (std::string why = why_not_denoised(task, options_); !why.empty())
+            return {.end = AttemptEnd::Hopeless, .error = std::move(why)};
     if (options_.in_process) {
         progress_.clear();
         return attempt_here(
