@@ -1,6 +1,7 @@
 #include "batch/batch_attempt.h"
 
 #include "core/error.h"
+#include "picture/output_paths.h"
 #include "render/checkpoint.h"
 #include "session/exit_code.h"
 #include "session/image_job.h"
@@ -118,14 +119,20 @@ ChildAttempt::ChildAttempt(const BatchTask& task, const BatchOptions& options, c
         // Neither of the two tells of its progress.
         commands_.push_back({std::move(arguments), "denoise"});
         const std::string preview = fs::path(denoised).replace_extension(".png").string();
-        if (options.overrides.png) commands_.push_back({{"view", denoised, "-o", preview}, "denoise"});
+        if (options.overrides.png)
+            commands_.push_back({.arguments = {"view", denoised, "-o", preview},
+                                 .phase = "denoise",
+                                 .shown_as = OutputPaths::beside(task.job.output).json});
     }
     start_next();
 }
 
 void ChildAttempt::start_next() {
-    child_ = std::make_unique<ChildProcess>(
-        ChildOptions{.arguments = commands_.front().arguments, .memory_limit = options_.max_memory});
+    Command& next = commands_.front();
+    if (!next.shown_as.empty())
+        for (std::string& word : display_arguments(next.shown_as)) next.arguments.push_back(std::move(word));
+    child_ =
+        std::make_unique<ChildProcess>(ChildOptions{.arguments = next.arguments, .memory_limit = options_.max_memory});
     attempt_ = {};
     last_sign_ = Clock::now();
     was_told_to_stop_ = false;
@@ -165,6 +172,7 @@ bool ChildAttempt::go_on(const AttemptCallbacks& callbacks) {
     judge();
     if (attempt_.end != AttemptEnd::Done) return false;
     commands_.pop_front();
+    has_rendered_ = true;
     if (commands_.empty()) return false;
     start_next();
     return true;

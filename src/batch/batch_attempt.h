@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -75,13 +76,16 @@ class ChildAttempt {
 
     /// Valid once `go_on` has returned false.
     [[nodiscard]] const Attempt& result() const { return attempt_; }
+    /// Returns whether the image is rendered, whatever became of what follows.
+    [[nodiscard]] bool has_rendered() const { return has_rendered_; }
 
   private:
     using Clock = std::chrono::steady_clock;
     struct Command {
         std::vector<std::string> arguments{};
-        std::string phase{};         ///< shown until the process tells of one
-        double stall_minutes = 0.0;  ///< minutes without progress after which it is ended; 0: never
+        std::string phase{};               ///< shown until the process tells of one
+        double stall_minutes = 0.0;        ///< minutes without progress after which it is ended; 0: never
+        std::filesystem::path shown_as{};  ///< NAME.json of the image whose view it takes; empty for none
     };
 
     void start_next();
@@ -93,6 +97,7 @@ class ChildAttempt {
     std::deque<Command> commands_;  ///< from the one that runs on
     std::unique_ptr<ChildProcess> child_;
     Attempt attempt_;
+    bool has_rendered_ = false;
     Clock::time_point last_sign_;  ///< last sign of its going on
     bool was_told_to_stop_ = false;
     bool has_lock_ = true;

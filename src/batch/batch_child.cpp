@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -75,19 +76,29 @@ SceneLook look_of(const Answer& answer, const nlohmann::json& outline) {
     return look;
 }
 
+/// Returns the options as words of a command line.
+std::vector<std::string> words_of(const std::vector<GivenOption>& options) {
+    std::vector<std::string> words;
+    for (const GivenOption& option : options) {
+        words.push_back(option.name);
+        if (option.value) words.push_back(*option.value);
+    }
+    return words;
+}
+
 /// Returns the options that make the image of `task` of its scene, as the batch was given them.
 std::vector<std::string> options_of(const BatchTask& task, const BatchOptions& options) {
-    std::vector<std::string> arguments;
-    std::vector<GivenOption> given = options.given;
-    if (task.job.frame) given = without(std::move(given), "--frames");
-    for (const GivenOption& option : given) {
-        arguments.push_back(option.name);
-        if (option.value) arguments.push_back(*option.value);
-    }
+    std::vector<std::string> arguments = words_of(task.job.frame ? without(options.given, "--frames") : options.given);
     if (task.job.frame) arguments.insert(arguments.end(), {"--frames", fmt::format("{0}:{0}", *task.job.frame)});
     if (task.job.variant) arguments.insert(arguments.end(), {"--variant", *task.job.variant});
     if (task.job.camera) arguments.insert(arguments.end(), {"--camera", *task.job.camera});
     return arguments;
+}
+
+/// Returns the options with those of renders that `inspect` takes, too: it writes no files.
+BatchOptions for_inspect(BatchOptions options) {
+    options.given = without(std::move(options.given), "--no-png");
+    return options;
 }
 
 }  // namespace
@@ -114,6 +125,8 @@ std::optional<ChildProgress> parse_progress(const std::string& line) {
 std::vector<std::string> render_arguments(const BatchTask& task, const BatchOptions& options, int threads) {
     std::vector<std::string> arguments{"render", as_argument(task.job.scene), "-o", as_argument(task.render_output)};
     for (std::string& option : options_of(task, options)) arguments.push_back(std::move(option));
+    if (task.job.first_frame && task.job.first_frame != task.job.frame)
+        arguments.insert(arguments.end(), {"--first-frame", fmt::format("{}", *task.job.first_frame)});
     if (threads > 0) arguments.insert(arguments.end(), {"--threads", fmt::format("{}", threads)});
     if (options.quiet) arguments.emplace_back("--quiet");
     return arguments;
@@ -122,7 +135,10 @@ std::vector<std::string> render_arguments(const BatchTask& task, const BatchOpti
 SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& options) {
     SceneNames names;
     if (interrupt_requested()) return names;
-    const nlohmann::json json = ask({"inspect", as_argument(scene), "--json"}, options).json;
+    std::vector<std::string> arguments{"inspect", as_argument(scene), "--json"};
+    for (std::string& option : words_of(without(for_inspect(options).given, "--frames")))
+        arguments.push_back(std::move(option));
+    const nlohmann::json json = ask(std::move(arguments), options).json;
     const auto list = [&](const char* key) {
         std::vector<std::string> found;
         const nlohmann::json all = value_of(json, key);
@@ -142,6 +158,21 @@ SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& op
     return names;
 }
 
+std::vector<std::string> display_arguments(const std::filesystem::path& statistics) {
+    std::ifstream in(statistics);
+    const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+    std::vector<std::string> arguments;
+    if (!json.is_object()) return arguments;
+    const nlohmann::json settings = json.value("settings", nlohmann::json::object());
+    for (const char* name : {"display", "view", "look"})
+        if (const std::string value = text_of(settings, (std::string("/color/") + name).c_str()); !value.empty())
+            arguments.insert(arguments.end(), {std::string("--") + name, value});
+    const nlohmann::json exposure = json.value("exposure", nlohmann::json::object());
+    if (const auto stops = exposure.find("stops"); stops != exposure.end() && stops->is_number())
+        arguments.insert(arguments.end(), {"--exposure", fmt::format("{}", stops->get<float>())});
+    return arguments;
+}
+
 SceneLook probe_in_child(const BatchTask& task, const BatchOptions& options) {
     std::vector<std::string> arguments = render_arguments(task, options, options.threads);
     arguments.emplace_back("--probe");
@@ -158,7 +189,7 @@ SceneLook probe_in_child(const BatchTask& task, const BatchOptions& options) {
 
 SceneLook inspect_in_child(const BatchTask& task, const BatchOptions& options) {
     std::vector<std::string> arguments{"inspect", as_argument(task.job.scene), "--json"};
-    for (std::string& option : options_of(task, options)) arguments.push_back(std::move(option));
+    for (std::string& option : options_of(task, for_inspect(options))) arguments.push_back(std::move(option));
     Answer answer = ask(std::move(arguments), options);
     std::string errors;
     for (const nlohmann::json& problem : value_of(answer.json, "problems")) {

@@ -37,6 +37,9 @@ struct ChildProgress {
 /// will say so.
 [[nodiscard]] SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& options);
 
+/// Returns the options of `etendue view` that show an image as the PNG of the image with these `statistics` does.
+[[nodiscard]] std::vector<std::string> display_arguments(const std::filesystem::path& statistics);
+
 /// Holds what another process found out about an image that is to be rendered.
 struct SceneLook {
     std::optional<double> seconds{};              ///< seconds that the image will take; none if nobody tried

@@ -34,11 +34,26 @@ void describe_unfinished(PlannedUnit& unit, const Staleness& stale, const Ledger
     unit.done = stale.done;
 }
 
-/// True if the image without noise was made of the image as it is.
-bool is_denoised(const std::filesystem::path& image) {
+/// True if the image without noise, and its PNG if one is wanted, was made of the image as it is.
+bool is_denoised(const std::filesystem::path& image, bool has_png) {
     std::error_code error;
-    const auto made = std::filesystem::last_write_time(denoised_path(image), error);
-    return !error && made >= std::filesystem::last_write_time(image, error) && !error;
+    const std::filesystem::path denoised = denoised_path(image);
+    const auto made = std::filesystem::last_write_time(denoised, error);
+    if (error || made < std::filesystem::last_write_time(image, error) || error) return false;
+    return !has_png || is_whole_png(std::filesystem::path(denoised).replace_extension(".png"));
+}
+
+/// True if one look at a scene does for both: they may be frames of one sequence.
+bool are_alike(const ImageJob& a, const ImageJob& b) {
+    return a.scene == b.scene && a.variant == b.variant && a.camera == b.camera;
+}
+
+/// Finds out about an image that is to be rendered as much as the options ask for.
+SceneLook look_at(const BatchTask& task, const BatchOptions& options) {
+    if (options.denoise)
+        if (std::string error = why_not_denoised(task, options); !error.empty()) return {.error = std::move(error)};
+    if (!options.no_probe) return probe_in_child(task, options);
+    return options.dry_run ? inspect_in_child(task, options) : SceneLook{};
 }
 
 }  // namespace
@@ -77,7 +92,8 @@ void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const L
             unit.reason = "the scene cannot be loaded";
         }
     }
-    if (!unit.is_stale() && options.denoise && !is_denoised(unit.task.job.output)) unit.reason = "was not denoised";
+    if (!unit.is_stale() && options.denoise && !is_denoised(unit.task.job.output, options.overrides.png))
+        unit.reason = "was not denoised";
 }
 
 BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, const LedgerHistory& history,
@@ -85,19 +101,20 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
     BatchPlan plan;
     plan.reserve(tasks.size());
     const std::size_t count = tasks.size();
-    std::optional<std::filesystem::path> seen_scene;
+    std::optional<ImageJob> looked_at;
     SceneLook look;
     for (BatchTask& task : tasks) {
         if (interrupt_requested()) break;
         progress(task.job.name, plan, count);
         PlannedUnit& unit = plan.emplace_back(PlannedUnit{.task = std::move(task)});
         examine(unit, options, options.force, history);
-        if (!unit.is_stale() || (options.no_probe && !options.dry_run)) continue;
-        if (unit.task.job.scene != seen_scene) {
-            seen_scene = unit.task.job.scene;
-            look = options.no_probe ? inspect_in_child(unit.task, options) : probe_in_child(unit.task, options);
+        if (!unit.is_stale()) continue;
+        if (!looked_at || !are_alike(*looked_at, unit.task.job)) {
+            looked_at = unit.task.job;
+            look = look_at(unit.task, options);
         }
         unit.outline = look.outline;
+        if (unit.task.job.camera) unit.outline.camera = *unit.task.job.camera;
         unit.error = look.error;
         unit.memory_bytes = look.memory_bytes;
         if (look.seconds) unit.estimated_seconds = *look.seconds * (1.0 - unit.done);

@@ -52,8 +52,9 @@ void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const L
 /// Told what is being looked at, the part of the plan that is made, and of how many images it will be.
 using PlanProgress = std::function<void(const std::string& what, const BatchPlan& so_far, std::size_t of)>;
 
-/// Examines all images, and lets each scene's first stale one be probed, or, for a dry run without probes, inspected:
-/// the others of that scene are taken to cost the same and to fail if it fails. Ends early if it is interrupted.
+/// Examines all images, and lets the first stale frame of each scene, variant and camera be probed, or, for a dry run
+/// without probes, inspected: the other frames are taken to cost the same and to fail if it fails. Ends early if it is
+/// interrupted.
 [[nodiscard]] BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options,
                                   const LedgerHistory& history, const PlanProgress& progress);
 
@@ -71,7 +72,7 @@ struct PlanTotals {
 
 /// Returns a table with a row for each image, what is wrong with those that will fail, and a last line that sums up.
 [[nodiscard]] std::string to_table(const BatchPlan& plan);
-/// Says what is wrong with the images that will fail, once for each scene; empty if nothing is.
+/// Says what is wrong with the images that will fail, once for each scene and reason; empty if nothing is.
 [[nodiscard]] std::string failures(const BatchPlan& plan);
 /// One JSON object: docs/batch.md tells its keys.
 [[nodiscard]] std::string to_json(const BatchPlan& plan);

@@ -87,22 +87,19 @@ std::string to_table(const BatchPlan& plan) {
 }
 
 std::string failures(const BatchPlan& plan) {
-    struct Failure {
-        std::string error;
-        std::size_t images = 0;
-    };
-    std::vector<std::pair<std::string, Failure>> scenes;
+    using Failure = std::pair<std::string, std::string>;  // scene and error
+    std::vector<std::pair<Failure, std::size_t>> failures;
     for (const PlannedUnit& unit : plan) {
         if (!unit.is_stale() || unit.error.empty()) continue;
-        const std::string scene = unit.task.job.scene.string();
-        auto found = std::ranges::find(scenes, scene, &std::pair<std::string, Failure>::first);
-        if (found == scenes.end()) found = scenes.insert(scenes.end(), {scene, {unit.error, 0}});
-        ++found->second.images;
+        const Failure failure{unit.task.job.scene.string(), unit.error};
+        auto found = std::ranges::find(failures, failure, &std::pair<Failure, std::size_t>::first);
+        if (found == failures.end()) found = failures.insert(failures.end(), {failure, 0});
+        ++found->second;
     }
     std::string text;
-    for (const auto& [scene, failure] : scenes) {
-        text += fmt::format("{}: {} will fail\n", shown_text(scene), images(failure.images));
-        std::istringstream lines(failure.error);
+    for (const auto& [failure, count] : failures) {
+        text += fmt::format("{}: {} will fail\n", shown_text(failure.first), images(count));
+        std::istringstream lines(failure.second);
         for (std::string line; std::getline(lines, line);) text += "  " + shown_text(line) + "\n";
     }
     return text;

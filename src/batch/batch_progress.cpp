@@ -203,7 +203,7 @@ void BatchProgress::say(const std::string& text) {
 void BatchProgress::say_error(const std::string& text) {
     record(shown_message(text));
     clear();
-    log_error("{}", text);
+    log_error("{}", terminal_ ? text : stamped(text));
 }
 
 double BatchProgress::elapsed() const {

@@ -12,6 +12,7 @@
 #include "session/exit_code.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
+#include "session/up_to_date.h"
 
 #include <algorithm>
 #include <chrono>
@@ -68,6 +69,23 @@ BatchUnit planned_unit(const PlannedUnit& planned, const BatchOptions& options) 
     return unit;
 }
 
+/// Returns what is known of a unit that is left as it is, without loading its scene.
+BatchUnit left_out_unit(const BatchTask& task, const BatchOptions& options, const LedgerHistory& history) {
+    BatchUnit unit = unknown_unit(task, options);
+    unit.is_chosen = false;
+    unit.outcome = UnitOutcome::NotChosen;
+    const OutputPaths paths = OutputPaths::beside(task.job.output, options.overrides.png);
+    const LedgerHistory::Entry* const last = history.find(task.id);
+    if (last != nullptr && last->kind == LedgerEventKind::UnitFailed) {
+        unit.outcome = UnitOutcome::Failed;
+        unit.error = last->error;
+    } else if (!why_unfinished(paths) && !why_outdated(paths, task.job.scene)) {
+        unit.outcome = UnitOutcome::UpToDate;
+        read_statistics(paths.json, unit);
+    }
+    return unit;
+}
+
 /// True if the attempt ended because the checkpoint that it was to go on with is of no use: it is damaged, or of
 /// another render. What merely cannot be read, or used for want of memory, is worth another attempt.
 bool was_refused(const Attempt& attempt) {
@@ -81,10 +99,10 @@ bool would_fail_here(const LedgerHistory::Entry& failure, const std::string& hos
 
 }  // namespace
 
-BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tasks, LedgerHistory& history,
-                         BatchProgress& progress, BatchWatcher* watcher)
+BatchRunner::BatchRunner(const BatchOptions& options, BatchTasks tasks, LedgerHistory& history, BatchProgress& progress,
+                         BatchWatcher* watcher)
     : options_(options),
-      tasks_(std::move(tasks)),
+      tasks_(std::move(tasks.chosen)),
       history_(history),
       progress_(progress),
       watcher_(watcher),
@@ -104,6 +122,8 @@ BatchRunner::BatchRunner(const BatchOptions& options, std::vector<BatchTask> tas
     jobs_ = options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : usual_jobs(report_.threads);
     report_.jobs = static_cast<int>(jobs_);
     for (const BatchTask& task : tasks_) report_.units.push_back(unknown_unit(task, options_));
+    for (const BatchTask& task : tasks.left_out) left_out_.push_back(left_out_unit(task, options_, history_));
+    report_.units.insert(report_.units.end(), left_out_.begin(), left_out_.end());
     write_reports(true);
 }
 
@@ -133,6 +153,7 @@ const BatchPlan& BatchRunner::plan() {
         std::istringstream lines(unit.error);
         for (std::string line; std::getline(lines, line);) said_[unit.task.job.scene].insert(line);
     }
+    report_.units.insert(report_.units.end(), left_out_.begin(), left_out_.end());
     return plan_;
 }
 
@@ -141,6 +162,15 @@ void BatchRunner::abandon() {
     report_.ended = utc_time();
     write_reports(true);
     tidy();
+}
+
+void BatchRunner::fail_all() {
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+        if (!plan_[i].is_stale()) continue;
+        report_.units[i].outcome = UnitOutcome::Failed;
+        end_record(i, {.end = AttemptEnd::Failed, .error = plan_[i].error}, 0.0, false);
+    }
+    abandon();
 }
 
 void BatchRunner::run() {
@@ -175,6 +205,8 @@ void BatchRunner::run() {
     report_.ended = utc_time();
     report_.state = BatchState::Ended;
     report_.seconds_left.reset();
+    if (report_.interrupted && options_.force)
+        progress_.say("--force makes all images anew, also those that this batch has made, if it is started again");
     books_.append({.kind = LedgerEventKind::BatchFinished,
                    .seconds = seconds_since(start_),
                    .units = plan_.size(),
@@ -364,6 +396,9 @@ std::optional<Attempt> BatchRunner::start_attempt(Work& work) {
     work.start = Clock::now();
     unit.outcome = UnitOutcome::Running;
     write_reports(false);
+    if (options_.denoise)
+        if (std::string why = why_not_denoised(task, options_); !why.empty())
+            return Attempt{.end = AttemptEnd::Hopeless, .error = std::move(why)};
     if (!options_.in_process) {
         const int threads = options_.threads > 0 || jobs_ > 1 ? work.threads : 0;
         work.attempt = std::make_unique<ChildAttempt>(task, options_, work.how, threads);
@@ -399,6 +434,7 @@ std::optional<BatchRunner::Beginning> BatchRunner::conclude(Work& work, const At
     }
     if (!is_refused) ++work.retries;
     work.how.resume = !is_refused;
+    if (work.attempt && work.attempt->has_rendered()) work.how.force = false;  // what failed came after the image
     progress_.say(fmt::format("{}: {}; {}", unit.name, failure_in_words(result),
                               is_refused ? "begins anew without the checkpoint"
                                          : fmt::format("tries again ({} of {})", work.retries, options_.retries)));

@@ -31,9 +31,9 @@ namespace etendue {
 class BatchRunner {
   public:
     /// `options`, `history`, `progress` and `watcher`, which may be null, outlive it. A report of images of which
-    /// nothing is known is written.
-    BatchRunner(const BatchOptions& options, std::vector<BatchTask> tasks, LedgerHistory& history,
-                BatchProgress& progress, BatchWatcher* watcher = nullptr);
+    /// nothing is known is written, and of those that are left out, which `history` and their files tell of.
+    BatchRunner(const BatchOptions& options, BatchTasks tasks, LedgerHistory& history, BatchProgress& progress,
+                BatchWatcher* watcher = nullptr);
 
     /// Makes the plan. Ends early when it is interrupted.
     const BatchPlan& plan();
@@ -44,6 +44,8 @@ class BatchRunner {
 
     /// Ends the batch before anything is made.
     void abandon();
+    /// Records that every stale image has failed, as its plan says, and ends the batch.
+    void fail_all();
 
     [[nodiscard]] const BatchReport& report() const { return report_; }
     /// Returns false if something could not be written into the ledger or the reports; it was said when it happened.
@@ -116,7 +118,8 @@ class BatchRunner {
     void tidy() const;
 
     const BatchOptions& options_;
-    std::vector<BatchTask> tasks_;  ///< until they are planned
+    std::vector<BatchTask> tasks_;     ///< until they are planned
+    std::vector<BatchUnit> left_out_;  ///< stand behind the others in the report
     BatchPlan plan_{};
     LedgerHistory& history_;
     BatchProgress& progress_;

@@ -32,7 +32,7 @@ std::string to_table(const BatchReport& report, const std::string& output) {
         text += '\n';
     }
     if (const std::size_t count = totals(report).not_started; count > 0)
-        text += fmt::format("{} images were not started\n", count);
+        text += count == 1 ? "1 image was not started\n" : fmt::format("{} images were not started\n", count);
     return text;
 }
 

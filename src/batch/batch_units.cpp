@@ -2,6 +2,7 @@
 
 #include "color/color_config.h"
 #include "core/error.h"
+#include "core/log.h"
 #include "core/shown_text.h"
 #include "loader/loader.h"
 #include "picture/aov_setup.h"
@@ -48,12 +49,18 @@ std::vector<FoundScene> find_scenes(const std::vector<std::string>& roots) {
         // Absolute, so that "." has a name, and without a trailing slash, so that the last component has one.
         fs::path root = fs::absolute(text).lexically_normal();
         if (!root.has_filename()) root = root.parent_path();
-        for (const fs::path& scene : find_scene_directories(root)) {
-            if (!seen.insert(scene).second) continue;
-            const fs::path relative = scene.lexically_relative(root);
-            const std::string name = (relative == "." ? root.filename() : relative).string();
-            scenes.push_back({scene.lexically_proximate(fs::current_path()), root, name});
+        const auto add = [&](const fs::path& scene, const fs::path& below, const std::string& name) {
+            if (!seen.insert(scene).second) return;
+            scenes.push_back({scene.lexically_proximate(fs::current_path()), below, name});
             ++uses[name];
+        };
+        if (!fs::is_directory(root)) {
+            add(root, root.parent_path(), root.stem().string());
+            continue;
+        }
+        for (const fs::path& scene : find_scene_directories(root)) {
+            const fs::path relative = scene.lexically_relative(root);
+            add(scene, root, (relative == "." ? root.filename() : relative).string());
         }
     }
     for (FoundScene& scene : scenes)
@@ -71,6 +78,8 @@ std::string file_part(const std::string& variant) {
         part += character == "/" || character == "#" || !is_shown(character) ? "_" : character;
         at += character.size();
     }
+    // As a folder, these would be others.
+    if (part == "." || part == "..") part.assign(part.size(), '_');
     return part;
 }
 
@@ -155,14 +164,29 @@ std::string put(std::string name, std::string_view placeholder, const std::strin
     return replaced(name, placeholder, value);
 }
 
-/// Returns the path of an image below the output directory, without extension; a frame's number is "####" there.
+/// Returns `name` without folders that have no name, of placeholders without a value.
+fs::path without_empty_folders(const std::string& name) {
+    fs::path kept;
+    for (const fs::path& part : fs::path(name))
+        if (!part.empty() && part != "/") kept /= part;
+    return kept;
+}
+
+/// Returns the path of an image below the output directory, without extension; a frame's number is "####" there. Throws
+/// UsageError if `pattern` leaves no name or leads elsewhere.
 std::string image_name(const std::string& pattern, const std::string& scene, const ScenePart& part, bool is_sequence) {
     if (pattern.empty()) return scene + part.variant_suffix + part.camera_suffix;
     const auto without_dot = [](const std::string& suffix) { return suffix.empty() ? suffix : suffix.substr(1); };
     std::string name = put(pattern, "{frame}", is_sequence ? "####" : "");
     name = put(name, "{variant}", without_dot(part.variant_suffix));
     name = put(name, "{camera}", without_dot(part.camera_suffix));
-    return put(name, "{scene}", scene);
+    const fs::path path = without_empty_folders(put(name, "{scene}", scene));
+    if (path.empty())
+        throw UsageError(fmt::format("--name '{}' leaves no name for an image of {}", pattern, shown(scene)));
+    if (std::ranges::any_of(path, [](const fs::path& folder) { return folder == "." || folder == ".."; }))
+        throw UsageError(fmt::format("--name '{}' names the image '{}' of {}, which is not below the output directory",
+                                     pattern, shown(path.string()), shown(scene)));
+    return path.string();
 }
 
 /// True if the glob matches the image's name, or its scene's, or the last part of that, or a folder above.
@@ -183,22 +207,30 @@ std::string some_names(const std::vector<BatchTask>& tasks) {
     return tasks.size() > kMost ? text + fmt::format(" and {} more", tasks.size() - kMost) : text;
 }
 
-/// Leaves what --only and --exclude choose.
-void choose(std::vector<BatchTask>& tasks, const BatchOptions& options) {
-    if (tasks.empty()) return;
+/// Parts what --only and --exclude choose from the rest.
+BatchTasks choose(std::vector<BatchTask> tasks, const BatchOptions& options) {
+    if (tasks.empty()) return {};
     const auto any = [](const std::vector<std::string>& globs, const BatchTask& task) {
         return std::ranges::any_of(globs, [&](const std::string& glob) { return matches(glob, task); });
     };
-    for (const auto& [option, globs] : {std::pair("--only", &options.only), std::pair("--exclude", &options.exclude)})
-        for (const std::string& glob : *globs)
-            if (std::ranges::none_of(tasks, [&](const BatchTask& task) { return matches(glob, task); }))
-                throw UsageError(
-                    fmt::format("{} '{}' matches no image; there are {} (a glob matches an image's or a "
-                                "scene's name, or a folder: '*' any text, '?' a character)",
-                                option, glob, some_names(tasks)));
-    if (!options.only.empty()) std::erase_if(tasks, [&](const BatchTask& task) { return !any(options.only, task); });
-    std::erase_if(tasks, [&](const BatchTask& task) { return any(options.exclude, task); });
-    if (tasks.empty()) throw UsageError("--only and --exclude leave no image");
+    const auto names_none = [&](const std::string& glob) {
+        return std::ranges::none_of(tasks, [&](const BatchTask& task) { return matches(glob, task); });
+    };
+    for (const std::string& glob : options.only)
+        if (names_none(glob))
+            throw UsageError(
+                fmt::format("--only '{}' matches no image; there are {} (a glob matches an image's or a "
+                            "scene's name, or a folder: '*' any text, '?' a character)",
+                            glob, some_names(tasks)));
+    for (const std::string& glob : options.exclude)
+        if (names_none(glob) && !options.quiet) log_warning("note: --exclude '{}' matches no image", shown(glob));
+    BatchTasks parted;
+    for (BatchTask& task : tasks) {
+        const bool is_chosen = (options.only.empty() || any(options.only, task)) && !any(options.exclude, task);
+        (is_chosen ? parted.chosen : parted.left_out).push_back(std::move(task));
+    }
+    if (parted.chosen.empty()) throw UsageError("--only and --exclude leave no image");
+    return parted;
 }
 
 /// Names of the layers of the scene's images that have files of their own, as settings tell them. Those that are named
@@ -246,13 +278,14 @@ std::vector<fs::path> files_of(const std::vector<BatchTask>& tasks, const BatchO
     return files;
 }
 
-/// Throws ReplacedInput if one of `outputs` is read for an image. What does not exist yet is nobody's input: scenes are
-/// looked at only if there is something to replace.
+/// Throws ReplacedInput if the log or one of `outputs` is read for an image. What does not exist yet is nobody's input:
+/// scenes are looked at only if there is something to replace.
 void require_scenes_kept(std::vector<fs::path> outputs, const std::vector<BatchTask>& tasks,
                          const BatchOptions& options) {
     std::error_code ignored;
     std::erase_if(outputs, [&](const fs::path& file) { return !fs::exists(file, ignored); });
-    if (outputs.empty()) return;
+    const bool has_log = fs::exists(options.log, ignored);
+    if (outputs.empty() && !has_log) return;
     std::vector<fs::path> inputs = ColorConfig::environment_files();
     if (auto file = options.overrides.environment_file()) inputs.push_back(std::move(*file));
     const fs::path* last = nullptr;  // tasks of one scene are beside each other
@@ -262,6 +295,15 @@ void require_scenes_kept(std::vector<fs::path> outputs, const std::vector<BatchT
         last = &task.job.scene;
     }
     require_inputs_kept("--output", outputs, inputs);
+    if (has_log) require_inputs_kept("--log", std::array{options.log}, inputs);
+}
+
+/// Throws UsageError if the log is one of the files that the batch writes.
+void require_log_apart(const fs::path& log, const std::vector<fs::path>& outputs) {
+    for (const fs::path& file : outputs)
+        if (file.filename() == log.filename() && written_file(file) == written_file(log))
+            throw UsageError(
+                fmt::format("--log '{}': the batch writes this file itself; name another one", log.string()));
 }
 
 }  // namespace
@@ -289,8 +331,8 @@ void check_name_pattern(const std::string& pattern) {
         fail("{frame} must stand in the last part, which names the file");
 }
 
-std::vector<BatchTask> collect_tasks(const BatchOptions& options, const FindNames& find_names) {
-    std::vector<BatchTask> tasks;
+BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_names) {
+    std::vector<BatchTask> all;
     for (const FoundScene& scene : find_scenes(options.roots)) {
         SceneNames names;
         if (options.all_variants || options.all_cameras) names = find_names(scene.path);
@@ -304,13 +346,30 @@ std::vector<BatchTask> collect_tasks(const BatchOptions& options, const FindName
                 job.variant = part.variant;
                 job.camera = part.camera;
                 const fs::path below = job.output.lexically_relative(options.output);
-                tasks.push_back({std::move(job), output, (below.parent_path() / below.stem()).string(), scene.name});
+                all.push_back({std::move(job), output, (below.parent_path() / below.stem()).string(), scene.name});
             }
         }
     }
-    choose(tasks, options);
-    require_scenes_kept(files_of(tasks, options), tasks, options);
+    BatchTasks tasks = choose(std::move(all), options);
+    const std::vector<fs::path> files = files_of(tasks.chosen, options);
+    if (!options.log.empty()) require_log_apart(options.log, files);
+    require_scenes_kept(files, tasks.chosen, options);
     return tasks;
+}
+
+std::string why_not_denoised(const BatchTask& task, const BatchOptions& options) try {
+    RenderSettings settings = find_settings(task.job.scene).value_or(RenderSettings());
+    options.overrides.apply(settings);
+    if (settings.color.aces_container)
+        return "error: --denoise: an ACES container holds no layers, from which the noise is known; leave out one of "
+               "both";
+    if (settings.aov_layout == AovLayout::Files)
+        return "error: --denoise: the layers must be in the image's own file; leave out --aov-layout files";
+    if (settings.spp < 2)
+        return "error: --denoise: the noise is known from two halves of the samples, and there is one sample (--spp)";
+    return "";
+} catch (const std::exception&) {
+    return "";  // rendering the scene will say what is wrong
 }
 
 }  // namespace etendue

@@ -18,6 +18,11 @@ struct BatchTask {
     std::string scene_name{};             ///< path that the scene has below the directory that it was found in
 };
 
+struct BatchTasks {
+    std::vector<BatchTask> chosen{};    ///< those of one scene beside each other
+    std::vector<BatchTask> left_out{};  ///< what --only, --exclude or --failed leave as it is
+};
+
 /// Returns the name of the image without noise beside the image `output`.
 [[nodiscard]] std::filesystem::path denoised_path(const std::filesystem::path& output);
 
@@ -35,9 +40,14 @@ using FindNames = std::function<SceneNames(const std::filesystem::path& scene)>;
 /// Throws UsageError that says why `pattern` cannot name images below the output directory, if it cannot.
 void check_name_pattern(const std::string& pattern);
 
-/// Collects the tasks, those of one scene beside each other. `find_names` is asked once for each scene if all variants
-/// or cameras are wanted. Throws UsageError if --only or --exclude name nothing or leave nothing, SceneError if two
-/// files of the images or the batch would have one name, and ReplacedInput if any of them is an input of a scene.
-[[nodiscard]] std::vector<BatchTask> collect_tasks(const BatchOptions& options, const FindNames& find_names);
+/// Collects the tasks. `find_names` is asked once for each scene if all variants or cameras are wanted. Throws
+/// UsageError if --only names nothing, if it or --exclude leave nothing, if --name leads out of the output directory,
+/// or if the log is a file that the batch writes; SceneError if two files of the images or the batch would have one
+/// name; and ReplacedInput if any of them, or the log, is an input of a scene.
+[[nodiscard]] BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_names);
+
+/// Says why the image cannot be denoised, by its settings, however it is rendered; empty if it can, or if the settings
+/// cannot be read.
+[[nodiscard]] std::string why_not_denoised(const BatchTask& task, const BatchOptions& options);
 
 }  // namespace etendue

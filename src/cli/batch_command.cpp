@@ -8,6 +8,7 @@
 #include "batch/batch_units.h"
 #include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/program.h"
 #include "cli/settings_options.h"
 #include "core/byte_size.h"
 #include "core/error.h"
@@ -23,6 +24,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -68,7 +70,7 @@ void print(const BatchOptions& options, const std::string& json, const std::stri
 
 ExitCode exit_code_of(const BatchRunner& runner) {
     if (interrupt_requested()) return interrupt_exit_code();
-    const BatchTotals sum = totals(runner.report());
+    const BatchTotals sum = totals(of_chosen(runner.report()));
     const bool is_whole = sum.rendered + sum.up_to_date == sum.units && runner.has_kept_books();
     return is_whole ? ExitCode::Success : ExitCode::RenderFailed;
 }
@@ -83,7 +85,7 @@ bool is_command_line_wrong(const BatchPlan& plan) {
 
 /// Runs the command that is to follow a batch, with what became of that in its environment.
 void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitCode code, BatchProgress& progress) {
-    const BatchTotals sum = totals(report);
+    const BatchTotals sum = totals(of_chosen(report));
     const CommandResult result = run_command(
         {"env", "ETENDUE_OUTPUT=" + report.output_directory,
          fmt::format("ETENDUE_EXIT_CODE={}", static_cast<int>(code)), fmt::format("ETENDUE_RENDERED={}", sum.rendered),
@@ -95,13 +97,25 @@ void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitC
         progress.say_error(fmt::format("error: --on-finish: the command ended with exit code {}", result.exit_code));
 }
 
-/// Leaves the images that failed last time, or were not tried as others of their scene had failed.
-void keep_failed(std::vector<BatchTask>& tasks, const LedgerHistory& history) {
-    std::erase_if(tasks, [&](const BatchTask& task) {
+/// Leaves out all but the images that failed last time, or were not tried as others of their scene had failed.
+void keep_failed(BatchTasks& tasks, const LedgerHistory& history) {
+    const auto others = std::ranges::stable_partition(tasks.chosen, [&](const BatchTask& task) {
         const LedgerHistory::Entry* const last = history.find(task.id);
-        return last == nullptr ||
-               (last->kind != LedgerEventKind::UnitFailed && last->kind != LedgerEventKind::UnitNotTried);
+        return last != nullptr &&
+               (last->kind == LedgerEventKind::UnitFailed || last->kind == LedgerEventKind::UnitNotTried);
     });
+    std::ranges::move(others, std::back_inserter(tasks.left_out));
+    tasks.chosen.erase(others.begin(), others.end());
+}
+
+/// Opens the log, which may lie in the output directory that is still to be made.
+void open_log(const BatchOptions& options, std::optional<BatchProgress>& progress) {
+    if (!options.log.empty()) {
+        const fs::path output = fs::absolute(options.output).lexically_normal();
+        const fs::path below = fs::absolute(options.log).lexically_normal().lexically_relative(output);
+        if (*below.begin() != "..") prepare_output(options.output);
+    }
+    progress.emplace(options.quiet, options.log);
 }
 
 ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, const LedgerHistory& history,
@@ -121,8 +135,10 @@ ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, cons
     return totals(plan).failing > 0 ? ExitCode::InvalidScene : ExitCode::Success;
 }
 
-/// Shows the batch on a page of the port `live`, unless that is none.
-ExitCode run_batch(const BatchOptions& options, const std::optional<int>& live) {
+/// Makes the batch, and puts its progress and its report where whoever follows it finds them. Shows it on a page of the
+/// port `live`, unless that is none.
+ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live, std::optional<BatchProgress>& progress,
+                    BatchReport& report) {
     check_options(options.overrides);
     if (!options.name_pattern.empty()) check_name_pattern(options.name_pattern);
     const bool needs_times = options.order == BatchOrder::Shortest || options.order == BatchOrder::Longest;
@@ -132,42 +148,56 @@ ExitCode run_batch(const BatchOptions& options, const std::optional<int>& live) 
         throw UsageError(
             "--jobs: how much memory an image needs is not known with --no-probe: leave that out, or give "
             "--max-memory");
-    BatchProgress progress(options.quiet, options.log);
-    const auto look = [&](const fs::path& scene) { return find_names(scene, options); };
-    std::vector<BatchTask> tasks = collect_tasks(options, look);
-    if (tasks.empty()) {
-        progress.say_error("error: no scene directory was found; a scene directory holds a render.json or a glTF file");
+    BatchTasks tasks = collect_tasks(options, [&](const fs::path& scene) { return find_names(scene, options); });
+    if (options.dry_run)
+        progress.emplace(options.quiet);
+    else
+        open_log(options, progress);
+    if (tasks.chosen.empty()) {
+        progress->say_error(
+            "error: no scene directory was found; a scene directory holds a render.json or a glTF file");
         return ExitCode::InvalidScene;
     }
     LedgerHistory history(options.output / "ledger.jsonl");
     history.read_new();
     if (options.only_failed) {
         keep_failed(tasks, history);
-        if (tasks.empty()) {
-            progress.say(fmt::format("--failed: no image in {} failed last time", options.output.string()));
+        if (tasks.chosen.empty()) {
+            progress->say(fmt::format("--failed: no image in {} failed last time", options.output.string()));
             return ExitCode::Success;
         }
     }
-    if (options.dry_run) return run_dry(std::move(tasks), options, history, progress);
+    if (options.dry_run) return run_dry(std::move(tasks.chosen), options, history, *progress);
     prepare_output(options.output);
     std::optional<BatchLivePage> page;
     if (live) page.emplace(*live);
-    BatchRunner runner(options, std::move(tasks), history, progress, page ? &*page : nullptr);
+    BatchRunner runner(options, std::move(tasks), history, *progress, page ? &*page : nullptr);
     const BatchPlan& plan = runner.plan();
     if (interrupt_requested()) {
-        progress.say("interrupted before anything was rendered");
+        progress->say("interrupted before anything was rendered");
         return interrupt_exit_code();
     }
-    progress.say(summary(plan));
-    if (const std::string wrong = failures(plan); !wrong.empty()) progress.say(wrong.substr(0, wrong.size() - 1));
+    progress->say(summary(plan));
+    if (const std::string wrong = failures(plan); !wrong.empty()) progress->say(wrong.substr(0, wrong.size() - 1));
     if (is_command_line_wrong(plan)) {
-        runner.abandon();
+        runner.fail_all();
+        report = runner.report();
         return ExitCode::UsageError;
     }
     runner.run();
-    print(options, to_json(runner.report()), to_table(runner.report(), options.output.string()));
-    const ExitCode code = exit_code_of(runner);
-    if (!options.on_finish.empty()) run_on_finish(options, runner.report(), code, progress);
+    report = runner.report();
+    print(options, to_json(report), to_table(of_chosen(report), options.output.string()));
+    return exit_code_of(runner);
+}
+
+/// Makes the batch, and runs what is to follow it however it ends.
+ExitCode run_batch(const BatchOptions& options, const std::optional<int>& live) {
+    std::optional<BatchProgress> progress;
+    BatchReport report{.output_directory = fs::absolute(options.output).lexically_normal().string()};
+    const ExitCode code = run_action([&] { return make_batch(options, live, progress, report); });
+    if (options.on_finish.empty() || options.dry_run) return code;
+    if (!progress) progress.emplace(options.quiet);
+    run_on_finish(options, report, code, *progress);
     return code;
 }
 
@@ -193,9 +223,9 @@ std::uint64_t parse_memory(const char* option, const std::string& text) {
 }
 
 void add_own_options(CLI::App& command, BatchOptions& options) {
-    command.add_option("dirs", options.roots, "Directories to look for scene directories in")
+    command.add_option("dirs", options.roots, "Directories to look for scene directories in, or glTF files")
         ->required()
-        ->check(CLI::ExistingDirectory);
+        ->check(CLI::ExistingPath);
     command.add_option("-o,--output", options.output, "Directory for the images; made if it does not exist")
         ->required()
         ->type_name("DIR");

@@ -5,6 +5,7 @@
 #include "core/shown_text.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -72,10 +73,12 @@ std::string after(const std::string& message, std::string_view before) {
 
 /// Says in words of its own that a file is not there.
 std::string invalid(const std::string& message) {
-    for (const auto& [before, what] :
-         {std::pair("File does not exist: ", "file"), std::pair("Directory does not exist: ", "directory")}) {
+    for (const char* before : {"File does not exist: ", "Directory does not exist: ", "Path does not exist: "}) {
         const std::string path = after(message, before);
         if (path.empty()) continue;
+        // Where both would do, the name tells which was meant.
+        const bool is_file = *before == 'F' || (*before == 'P' && std::filesystem::path(path).has_extension());
+        const char* const what = is_file ? "file" : "directory";
         const std::string name = message.substr(0, message.find(':'));
         const bool is_glob = path.find_first_of("*?[") != std::string::npos;
         return fmt::format("{}: there is no {} '{}'{}", name, what, shown(path),

@@ -25,10 +25,7 @@
 
 namespace etendue {
 
-namespace {
-
-/// Runs `action` and turns what it throws into messages and exit codes.
-ExitCode run(const Action& action) {
+ExitCode run_action(const Action& action) {
     try {
         return action();
     } catch (const SceneError& error) {
@@ -54,6 +51,8 @@ ExitCode run(const Action& action) {
         return ExitCode::RenderFailed;
     }
 }
+
+namespace {
 
 /// Says what is wrong with a command line, or prints what --help and --version ask for.
 ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
@@ -87,10 +86,10 @@ int run_program(int argc, char** argv) {
         log_error("error: {}", error.what());
         return static_cast<int>(ExitCode::UsageError);
     } catch (const CLI::ParseError& error) {
-        return static_cast<int>(run([&] { return answer(*app, error); }));
+        return static_cast<int>(run_action([&] { return answer(*app, error); }));
     }
     install_interrupt_handlers();
-    return static_cast<int>(run([&] {
+    return static_cast<int>(run_action([&] {
         require_process_limits();
         return action();
     }));

@@ -37,6 +37,7 @@ struct RenderArguments {
     ImageJobOptions job;
     std::string scene;
     std::filesystem::path output;
+    std::optional<int> first_frame;  ///< of a sequence of which only a part is rendered here
     int threads = 0;
     bool force = false;
     bool probe = false;
@@ -46,6 +47,7 @@ struct RenderArguments {
 };
 
 void report(const std::filesystem::path& output, const RenderStatistics& s) {
+    if (s.samples == 0) return log_info("{}: interrupted before anything was rendered", output.string());
     const double seconds = std::max(s.render.wall, 1e-9);
     const std::string spp = s.adaptive ? fmt::format("{} to {} spp, {:.0f} on average,", s.adaptive->least,
                                                      s.adaptive->most, s.adaptive->mean)
@@ -104,7 +106,9 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
 ExitCode run_render(const RenderArguments& arguments) {
     const std::string name = scene_name(arguments.scene);
     const std::filesystem::path output = arguments.output.empty() ? default_output(arguments, name) : arguments.output;
-    const std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.job.overrides);
+    std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.job.overrides);
+    if (arguments.first_frame)
+        for (ImageJob& job : jobs) job.first_frame = arguments.first_frame;
     if (jobs.front().frame && !arguments.job.strategies.output.empty())
         throw SceneError({"--strategies-image", {}},
                          "it shows one image, and this is a sequence of frames: name the moment with --time-code");
@@ -208,6 +212,11 @@ void add_render_command(CLI::App& app, Action& action) {
                         "holds a part of an image (a range of --samples, or a --crop) for 'etendue merge'");
     add_settings_options(*command, arguments->job.overrides);
     add_png_option(*command, arguments->job.overrides);
+    command
+        ->add_option("--first-frame", arguments->first_frame,
+                     "Number of the first frame of the sequence, of which --frames are a part: 'auto' chooses the "
+                     "integrator there (default: the first of --frames)")
+        ->check(CLI::Range(-999999, 999999));
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
     add_continuation_options(*command, arguments);

@@ -58,7 +58,7 @@ std::vector<BatchTask> find_images(const SubmitArguments& arguments) {
     options.roots = arguments.roots;
     options.output = arguments.request.farm.output;
     options.overrides = arguments.request.overrides;
-    std::vector<BatchTask> tasks = collect_tasks(options, {});
+    std::vector<BatchTask> tasks = collect_tasks(options, {}).chosen;
     for (BatchTask& task : tasks) task.job.scene = fs::absolute(task.job.scene).lexically_normal();
     return tasks;
 }
@@ -123,6 +123,17 @@ void print_json(const SlurmFarm& farm, const FarmWork& work, const std::vector<s
     print_data(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+/// Returns how many tasks a job array may have. A dry run does without a cluster that can be asked.
+std::size_t array_size_for(const SubmitArguments& arguments) try {
+    return slurm_max_array_size();
+} catch (const IoError& error) {
+    constexpr std::size_t kSlurmDefault = 1001;
+    if (!arguments.dry_run) throw;
+    log_warning("note: job arrays are taken to have {} tasks at most, as Slurm's do by default: {}", kSlurmDefault,
+                error.what());
+    return kSlurmDefault;
+}
+
 ExitCode run_submit(const SubmitArguments& arguments) {
     const std::vector<BatchTask> tasks = find_images(arguments);
     if (tasks.empty()) {
@@ -137,7 +148,7 @@ ExitCode run_submit(const SubmitArguments& arguments) {
     }
     std::size_t max_array_size = 1;
     if (!work.images.empty()) {
-        max_array_size = slurm_max_array_size();
+        max_array_size = array_size_for(arguments);
         if (arguments.request.parts > max_array_size)
             throw UsageError(fmt::format("--split-samples {} is more than the {} tasks that a job array may have here",
                                          arguments.request.parts, max_array_size));
@@ -269,8 +280,9 @@ void complete(SubmitArguments& arguments, std::vector<GivenOption> overrides) {
 void add_submit_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<SubmitArguments>();
     CLI::App* command = app.add_subcommand("submit", "Render scenes on a cluster, or tell what has become of them");
-    auto* dirs = command->add_option("dirs", arguments->roots, "Directories to look for scene directories in")
-                     ->check(CLI::ExistingDirectory);
+    auto* dirs =
+        command->add_option("dirs", arguments->roots, "Directories to look for scene directories in, or glTF files")
+            ->check(CLI::ExistingPath);
     auto* output = command->add_option("-o,--output", arguments->output,
                                        "Directory for the images, on a file system that all nodes share");
     auto* scheduler = command->add_option("--scheduler", arguments->scheduler, "What the cluster is run by: slurm")
@@ -295,7 +307,7 @@ void add_submit_command(CLI::App& app, Action& action) {
         "Exit codes of --status: 0 all images are done, 1 some have failed, 4 some still wait or run.\n\n"
         "Examples:\n"
         "  etendue submit scenes -o /shared/out --scheduler slurm --quality preview\n"
-        "  etendue submit shots -o /shared/out --scheduler slurm --split-samples 8 --frames 1:240 --partition short\n"
+        "  etendue submit shots -o /shared/out --scheduler slurm --split-samples 8 --frames 1:240 --exposure 0\n"
         "  etendue submit shots -o /shared/out --scheduler slurm --threads 16 --task-memory 24G --dry-run\n"
         "  etendue submit --status /shared/out");
     command->callback([=, &action] {

@@ -16,6 +16,8 @@ std::string render_command(const FarmImage& image, const std::filesystem::path& 
                            const FarmOptions& options) {
     std::vector<GivenOption> words{{"", image.job.scene.string()}};
     if (image.job.frame) words.push_back({"--frames", fmt::format("{}", *image.job.frame)});
+    if (image.job.first_frame && image.job.first_frame != image.job.frame)
+        words.push_back({"--first-frame", fmt::format("{}", *image.job.first_frame)});
     words.push_back({"-o", output.string()});
     if (!samples.empty()) words.push_back({"--samples", samples});
     words.push_back({"--resume", std::nullopt});

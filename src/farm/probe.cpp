@@ -12,10 +12,12 @@
 #include "session/interrupt.h"
 #include "session/phase_timer.h"
 #include "session/prepared_scene.h"
+#include "session/sequence_choice.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -53,7 +55,6 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     SettingsOverrides given = overrides;
     given.frame = job.frame;
     PreparedScene prepared = prepare_scene(job.scene, given);
-    const PhaseTimer build_timer;
     const ColorConfig colors = ColorConfig::from_environment();
     const ImageOutline outline = outline_of(prepared.scene);
     const FilmSize film_size = film_size_of(prepared.scene);
@@ -62,10 +63,15 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     const std::string working_space = resolve_colors(settings, colors);
     RenderOptions options = make_render_options(settings);
     options.aovs = make_aov_plan(prepared.scene, prepared.problems).set;
+    std::optional<IntegratorChoice> of_sequence;
+    if (!to_choose.empty() && job.first_frame.value_or(job.frame.value_or(0)) != job.frame.value_or(0))
+        of_sequence = choose_in_frame(job.scene, overrides, *job.first_frame, colors, threads);
+    const PhaseTimer build_timer;
     const World world =
         ray_code().compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems, {});
     if (!to_choose.empty())
-        settings.integrator.type = choose_integrator(world, settings, to_choose, threads).integrator;
+        settings.integrator.type =
+            of_sequence ? of_sequence->integrator : choose_integrator(world, settings, to_choose, threads).integrator;
     const auto integrator = create_integrator(settings);
     const PhaseTime build = build_timer.elapsed();
     const ShortRender rendered = render_shortly(world, *integrator, options, threads);

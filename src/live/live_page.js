@@ -456,7 +456,7 @@ function showExplorer(status) {
 // ---- A batch ----
 
 const MARKS = { rendered: "✓", "up to date": "=", failed: "✕", interrupted: "‖", running: "▸", "running elsewhere": "▸",
-  "not started": "·" };
+  "not started": "·", "not chosen": "·" };
 
 /** A card for each image, in the order of the plan; pictures are loaded when they come into view. */
 function unitCard(unit, index) {

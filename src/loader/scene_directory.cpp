@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,14 @@ std::vector<fs::path> scene_files(const fs::path& directory) {
     }
     std::ranges::sort(files);
     return files;
+}
+
+/// True for a link to a directory that it lies in.
+bool leads_up(const fs::path& link) {
+    std::error_code code;
+    const fs::path from = fs::canonical(link.parent_path(), code);
+    const fs::path to = fs::canonical(link, code);
+    return std::ranges::mismatch(to, from).in1 == to.end();
 }
 
 /// The scene file of `directory`: the one that `wanted` names, else scene.gltf or scene.glb, else the only one.
@@ -240,14 +249,27 @@ std::vector<fs::path> find_scene_directories(const fs::path& root) {
     if (!fs::is_directory(root, code)) throw SceneError({root.string(), {}}, "this is not a directory");
 
     std::vector<fs::path> found;
+    std::set<fs::path> visited;  // as they are called without links, which may lead in circles
     std::vector<fs::path> pending{root};
-    while (!pending.empty()) {
+    std::vector<fs::path> links;  // followed last, so that a directory goes by its own name where it has one here
+    while (!pending.empty() || !links.empty()) {
+        if (pending.empty()) {
+            const auto next = std::ranges::min_element(links);
+            pending.push_back(std::move(*next));
+            links.erase(next);
+        }
         const fs::path directory = std::move(pending.back());
         pending.pop_back();
-        if (fs::exists(directory / kSettingsName, code) || !scene_files(directory).empty()) found.push_back(directory);
+        if (!visited.insert(fs::canonical(directory, code)).second) continue;
+        const bool is_scene = fs::exists(directory / kSettingsName, code) || !scene_files(directory).empty();
+        if (is_scene) found.push_back(directory);
         for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
             std::error_code ignored;
-            if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) pending.push_back(entry->path());
+            if (!entry->is_directory(ignored)) continue;
+            if (!entry->is_symlink(ignored))
+                pending.push_back(entry->path());
+            else if (!is_scene && !leads_up(entry->path()))  // a scene's own links lead to its files
+                links.push_back(entry->path());
         }
     }
     std::ranges::sort(found);

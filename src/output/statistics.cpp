@@ -64,6 +64,7 @@ std::string to_json(const RenderStatistics& s) {
     json["settings_hash"] = s.settings_hash;
     json["inputs"] = s.inputs;
     json["layer_files"] = s.layer_files;
+    json["file_sizes"] = s.file_sizes;
     json["light_units"] = s.light_units;
     json["exposure"] = {{"stops", s.exposure ? Json(*s.exposure) : Json()},
                         {"chosen", s.exposure_reason.empty() ? Json() : Json(s.exposure_reason)},

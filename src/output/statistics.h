@@ -67,7 +67,8 @@ struct RenderStatistics {
     std::string requested_settings;  ///< those of them that were not the default and decide what files hold, unresolved
     std::string command;             ///< the command line; empty if there was none
     std::vector<InputFile> inputs;
-    std::vector<std::string> layer_files;  ///< names of what lies beside the image and belongs to it
+    std::vector<std::string> layer_files;             ///< names of what lies beside the image and belongs to it
+    std::map<std::string, std::uint64_t> file_sizes;  ///< bytes of the EXRs and the PNG, by their names
     std::string light_units;        ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
     std::optional<float> exposure;  ///< stops, of the PNG
     std::string exposure_reason;    ///< why it was chosen; empty if it was asked for

@@ -35,6 +35,7 @@ Json batch_object(const BatchTotals& sum) {
             {"running", sum.running},
             {"running_elsewhere", sum.running_elsewhere},
             {"not_started", sum.not_started},
+            {"not_chosen", sum.not_chosen},
             {"seconds", batch_object(sum.seconds)},
             {"rays", sum.rays},
             {"peak_memory_bytes", sum.peak_memory_bytes}};
@@ -49,6 +50,7 @@ Json batch_object(const BatchUnit& unit) {
             {"image", unit.image},
             {"preview", known(unit.preview)},
             {"outcome", outcome_name(unit.outcome)},
+            {"chosen", unit.is_chosen},
             {"reason", known(unit.reason)},
             {"error", known(unit.error)},
             {"signal", known(unit.signal)},

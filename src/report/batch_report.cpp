@@ -20,6 +20,8 @@ std::size_t& count_of(BatchTotals& totals, UnitOutcome outcome) {
             return totals.running;
         case UnitOutcome::RunningElsewhere:
             return totals.running_elsewhere;
+        case UnitOutcome::NotChosen:
+            return totals.not_chosen;
         case UnitOutcome::NotStarted:
             break;
     }
@@ -45,6 +47,11 @@ BatchTotals totals(const BatchReport& report) {
     return sum;
 }
 
+BatchReport of_chosen(BatchReport report) {
+    std::erase_if(report.units, [](const BatchUnit& unit) { return !unit.is_chosen; });
+    return report;
+}
+
 const char* outcome_name(UnitOutcome outcome) {
     switch (outcome) {
         case UnitOutcome::Rendered:
@@ -59,6 +66,8 @@ const char* outcome_name(UnitOutcome outcome) {
             return "running";
         case UnitOutcome::RunningElsewhere:
             return "running elsewhere";
+        case UnitOutcome::NotChosen:
+            return "not chosen";
         case UnitOutcome::NotStarted:
             break;
     }

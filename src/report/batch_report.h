@@ -20,6 +20,7 @@ enum class UnitOutcome {
     Running,           ///< this batch process renders it
     RunningElsewhere,  ///< another batch process has it
     NotStarted,        ///< the batch ended before its turn
+    NotChosen,         ///< the batch was told to leave it as it is, and nothing better is known of it
 };
 
 /// Seconds on the clock.
@@ -43,6 +44,7 @@ struct BatchUnit {
     std::string image{};    ///< the EXR, relative to the output directory
     std::string preview{};  ///< the PNG that is looked at, relative to the output directory; empty if there is none
     UnitOutcome outcome = UnitOutcome::NotStarted;
+    bool is_chosen = true;           ///< false if the batch was told to leave it as it is
     std::string reason{};            ///< why it was stale: "settings changed"; empty if it was not
     std::string error{};             ///< one message of any number of lines, if it failed
     std::string signal{};            ///< signal that ended its process: "SIGSEGV"; empty if none did
@@ -100,12 +102,16 @@ struct BatchTotals {
     std::size_t running = 0;
     std::size_t running_elsewhere = 0;
     std::size_t not_started = 0;
+    std::size_t not_chosen = 0;
     UnitSeconds seconds{};
     std::uint64_t rays = 0;
     std::uint64_t peak_memory_bytes = 0;  ///< the largest of all units
 };
 
 [[nodiscard]] BatchTotals totals(const BatchReport& report);
+
+/// Returns the report without the units that the batch was told to leave as they are.
+[[nodiscard]] BatchReport of_chosen(BatchReport report);
 
 /// Returns the name of an outcome in JSON and on the page: "up to date".
 [[nodiscard]] const char* outcome_name(UnitOutcome outcome);

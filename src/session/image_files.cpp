@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -20,6 +21,7 @@
 #include <string_view>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace etendue {
@@ -51,16 +53,15 @@ std::optional<TextSpan> find_frame_number(const std::string& name, int frame) {
     return std::nullopt;
 }
 
-/// Returns the exposure that was chosen for the first of the frames before number `frame` that lie beside
-/// `statistics`, the file that this one will have, if they are of `scene`.
-std::optional<float> exposure_of_sequence(const std::filesystem::path& statistics, int frame,
-                                          const std::string& scene) {
+/// Returns the statistics of the frames before number `frame` that lie beside `statistics`, the file that this one will
+/// have, by their numbers.
+std::map<int, std::filesystem::path> frames_before(const std::filesystem::path& statistics, int frame) {
+    std::map<int, std::filesystem::path> before;
     const std::string name = statistics.filename().string();
     const std::optional<TextSpan> place = find_frame_number(name, frame);
-    if (!place) return std::nullopt;
+    if (!place) return before;
     const std::string before_number = name.substr(0, place->begin);
     const std::string after_number = name.substr(place->end);
-    std::map<int, std::filesystem::path> before;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(absolute(statistics).parent_path(), ignored)) {
         const std::string other = entry.path().filename().string();
@@ -72,7 +73,14 @@ std::optional<float> exposure_of_sequence(const std::filesystem::path& statistic
         const auto [read_to, problem] = std::from_chars(other.data() + before_number.size(), last, number);
         if (problem == std::errc() && read_to == last && number < frame) before.emplace(number, entry.path());
     }
-    for (const auto& [number, path] : before) {
+    return before;
+}
+
+/// Returns the exposure that was chosen for the first of the frames before number `frame` that lie beside
+/// `statistics`, the file that this one will have, if they are of `scene`.
+std::optional<float> exposure_of_sequence(const std::filesystem::path& statistics, int frame,
+                                          const std::string& scene) {
+    for (const auto& [number, path] : frames_before(statistics, frame)) {
         std::ifstream file(path);
         const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
         if (!json.is_object() || !json.contains("exposure") || json.value("scene", "") != scene) continue;
@@ -93,7 +101,56 @@ void settle_exposure(const OutputPaths& paths, OutputFrame& frame) {
     choose_missing_exposure(frame);
 }
 
+/// True if `auto` has chosen for the frame of the statistics `json`, and all that this depends on is as in `own`.
+bool has_same_choice(const nlohmann::json& json, const nlohmann::json& own) try {
+    const auto contents = [](const nlohmann::json& statistics) {
+        std::map<std::string, std::string> of_inputs;
+        for (const nlohmann::json& input : statistics.at("inputs"))
+            of_inputs[input.at("path").get<std::string>()] = input.at("content").get<std::string>();
+        return of_inputs;
+    };
+    const auto settings = [](const nlohmann::json& statistics) {
+        nlohmann::json requested = statistics.at("requested_settings");
+        requested.erase("/time_code");  // each frame's own
+        return requested;
+    };
+    for (const char* key : {"software", "scene"})
+        if (json.at(key) != own.at(key)) return false;
+    return settings(json) == settings(own) && json.at("integrator_choice").is_string() &&
+           json.at("integrator").is_string() && contents(json) == contents(own);
+} catch (const nlohmann::json::exception&) {
+    return false;  // of another program
+}
+
+/// Returns the bytes of each of the image's files that there are.
+std::map<std::string, std::uint64_t> sizes_of_files(const OutputPaths& paths, const std::vector<std::string>& layers) {
+    std::map<std::string, std::uint64_t> sizes;
+    const auto add = [&](const std::filesystem::path& file) {
+        std::error_code error;
+        if (const auto bytes = std::filesystem::file_size(file, error); !error) sizes[file.filename().string()] = bytes;
+    };
+    add(paths.exr);
+    if (!paths.png.empty()) add(paths.png);
+    for (const std::string& layer : layers) add(paths.exr.parent_path() / layer);
+    return sizes;
+}
+
 }  // namespace
+
+std::optional<IntegratorChoice> choice_of_sequence(const std::filesystem::path& file,
+                                                   const RenderStatistics& statistics) {
+    if (!statistics.frame) return std::nullopt;
+    const nlohmann::json own = nlohmann::json::parse(to_json(statistics), nullptr, false);
+    for (const auto& [number, path] : frames_before(file, *statistics.frame)) {
+        std::ifstream in(path);
+        const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+        if (json.is_object() && has_same_choice(json, own)) {
+            const auto integrator = json.at("integrator").get<std::string>();
+            return IntegratorChoice{integrator, fmt::format("'{}', as in frame {}", integrator, number)};
+        }
+    }
+    return std::nullopt;
+}
 
 std::filesystem::path preview_path(const std::filesystem::path& output) {
     std::filesystem::path path = output;
@@ -130,6 +187,7 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
     }
     if (beside) beside();
     image.statistics.layer_files = layer_file_names(paths.exr, image);
+    image.statistics.file_sizes = sizes_of_files(paths, image.statistics.layer_files);
     image.statistics.write = timer.elapsed();
     image.statistics.peak_memory_bytes = peak_memory_bytes();
     write_text(paths.json, to_json(image.statistics));

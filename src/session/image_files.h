@@ -4,10 +4,12 @@
 #include "color/color_config.h"
 #include "image/write.h"
 #include "picture/image_description.h"
+#include "picture/integrator_choice.h"
 #include "picture/output_paths.h"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +23,11 @@ namespace etendue {
 /// their own.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& output,
                                                                 std::span<const std::string> layers = {});
+
+/// Returns the integrator that `auto` chose for the first of the frames before this one that lie beside `file`, the
+/// statistics that this one will have, and were made of the files and with the settings of `statistics`.
+[[nodiscard]] std::optional<IntegratorChoice> choice_of_sequence(const std::filesystem::path& file,
+                                                                 const RenderStatistics& statistics);
 
 /// Writes the files of `image`, whose state has been described; fills in how long that took. `beside` is called for
 /// what else belongs to the image. Layers stand where `image` says. Statistics are removed first and written last, so

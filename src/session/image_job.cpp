@@ -51,7 +51,13 @@ std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::
     jobs.reserve(frames->count());
     for (std::size_t i = 0; i < frames->count(); ++i) {
         const int frame = frames->frame(i);
-        jobs.push_back({scene, frame_path(output, frame), fmt::format("{} frame {}", name, frame), frame});
+        jobs.push_back({scene,
+                        frame_path(output, frame),
+                        fmt::format("{} frame {}", name, frame),
+                        frame,
+                        {},
+                        {},
+                        frames->frame(0)});
     }
     return jobs;
 }
@@ -67,6 +73,7 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
     ImageResult result{job, ImageOutcome::UpToDate, {}, {}};
     SceneRenderRequest request{.scene = job.scene,
                                .output = job.output,
+                               .first_frame = job.first_frame,
                                .strategies = options.strategies,
                                .overrides = overrides_of(job, options.overrides),
                                .samples = options.samples,

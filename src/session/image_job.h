@@ -24,6 +24,7 @@ struct ImageJob {
     std::optional<std::string> variant{};
     /// Names the camera; none for the camera that overrides or render.json ask for.
     std::optional<std::string> camera{};
+    std::optional<int> first_frame{};  ///< number of the first frame of the sequence
 };
 
 enum class ImageOutcome { Rendered, UpToDate, Failed, Interrupted };

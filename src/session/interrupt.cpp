@@ -29,6 +29,8 @@ extern "C" void on_preview_signal(int) {
 void install_interrupt_handlers() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    // A terminal that is closed sends it, maybe twice; who is to outlive the terminal (nohup) ignores it.
+    if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGUSR1, on_preview_signal);
     // A file that would pass the limit of file sizes (ulimit -f) is an error of writing, which says so.
     std::signal(SIGXFSZ, SIG_IGN);
@@ -60,7 +62,7 @@ void clear_preview_request() {
 }
 
 ExitCode interrupt_exit_code() {
-    return signal_number.load() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
+    return signal_number.load() == SIGINT ? ExitCode::Interrupted : ExitCode::Terminated;
 }
 
 }  // namespace etendue

@@ -1,5 +1,5 @@
-// SIGINT and SIGTERM: the first asks the render to stop and write what there is, the second ends the process at once.
-// SIGUSR1 asks it to show what there is and to go on.
+// SIGINT, SIGTERM and, unless it is ignored, SIGHUP: the first asks the render to stop and write what there is, a
+// second SIGINT or SIGTERM ends the process at once. SIGUSR1 asks it to show what there is and to go on.
 #pragma once
 
 #include "session/exit_code.h"

@@ -25,6 +25,7 @@
 #include "session/progress_display.h"
 #include "session/progress_pipe.h"
 #include "session/render_identity.h"
+#include "session/sequence_choice.h"
 #include "session/up_to_date.h"
 
 #include <algorithm>
@@ -131,8 +132,10 @@ class SceneRender {
         if (kept && !request_.quiet)
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
+        std::optional<IntegratorChoice> chosen;
+        if (!to_choose_.empty()) chosen = choice_from_elsewhere(kept);
         const World world = compile();
-        if (!to_choose_.empty()) choose(world);
+        if (!to_choose_.empty()) choose(world, std::move(chosen));
         if (!request_.quiet)
             for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
         require_image_module();
@@ -152,6 +155,7 @@ class SceneRender {
         if (!interrupted || rendered.counters.samples > 0) write(world, rendered, !interrupted);
         if (request_.overrides.has("/brightest") && !request_.quiet) list_brightest(description_.statistics);
         if (!interrupted) checkpoints_.remove();
+        if (!interrupted && !is_partial(output_)) remove_preview();
         if (!interrupted && !is_partial(output_)) keep_sums(rendered);
         for (RenderWatcher* const watcher : request_.watchers) watcher->enter(interrupted ? "stopped" : "finished");
         return {std::move(description_.statistics), output_, interrupted, false};
@@ -329,11 +333,32 @@ class SceneRender {
         return world;
     }
 
-    /// Has a pilot choose the integrator, and all that depends on it follow. The identity names what was asked for:
-    /// with the scene and the program it decides what is chosen.
-    void choose(const World& world) {
+    /// Returns the integrator that was chosen for what is gone on with, or else for the sequence: in its first frame,
+    /// or in the first that lies beside this one. None if this image alone decides.
+    [[nodiscard]] std::optional<IntegratorChoice> choice_from_elsewhere(const std::optional<Checkpoint>& kept) const {
+        const auto can_serve = [&](const std::string& name) {
+            return std::ranges::find(to_choose_, name) != to_choose_.end();
+        };
+        if (kept) {
+            const RenderStatistics before = description_of(*kept, output_).statistics;
+            if (can_serve(before.integrator)) return IntegratorChoice{before.integrator, before.integrator_choice};
+        }
+        const std::optional<int> frame = description_.statistics.frame;
+        if (!frame) return std::nullopt;
+        if (!is_partial(output_))
+            if (auto earlier = choice_of_sequence(paths_.json, description_.statistics);
+                earlier && can_serve(earlier->integrator))
+                return earlier;
+        if (request_.first_frame.value_or(*frame) == *frame) return std::nullopt;
+        return choose_in_frame(request_.scene, request_.overrides, *request_.first_frame, colors_, threads_);
+    }
+
+    /// Takes the integrator that was chosen elsewhere or has a pilot choose, and all that depends on it follow. The
+    /// identity names what was asked for: with the scene and the program it decides what is chosen.
+    void choose(const World& world, std::optional<IntegratorChoice> chosen) {
         const PhaseTimer timer;
-        const IntegratorChoice choice = choose_integrator(world, settings_, to_choose_, threads_);
+        const IntegratorChoice choice =
+            chosen ? *std::move(chosen) : choose_integrator(world, settings_, to_choose_, threads_);
         settings_.integrator.type = choice.integrator;
         options_.adaptive = options_of(settings_).adaptive;
         integrator_ = create_integrator(settings_);
@@ -343,7 +368,9 @@ class SceneRender {
         const PhaseTime taken = timer.elapsed();
         description_.statistics.build.wall += taken.wall;
         description_.statistics.build.cpu += taken.cpu;
-        if (!request_.quiet) log_info("{}: auto chose {}", title(), choice.reason);
+        // Who takes progress as JSON says itself what it is about.
+        const std::string of = request_.progress_descriptor >= 0 ? "" : title() + ": ";
+        if (!request_.quiet) log_info("{}auto chose {}", of, choice.reason);
     }
 
     [[nodiscard]] RenderResult render_from(const World& world, RenderState state) {
@@ -408,6 +435,14 @@ class SceneRender {
         std::filesystem::remove(path, ignored);
     }
 
+    /// Removes what SIGUSR1 had written of the image before it was finished, unless the file is another image's.
+    void remove_preview() const {
+        std::error_code ignored;
+        const std::filesystem::path preview = preview_path(output_);
+        if (!std::filesystem::exists(OutputPaths::beside(preview).json, ignored))
+            std::filesystem::remove(preview, ignored);
+    }
+
     /// Shows the image as it is to whoever looks on.
     void show(const RenderState& state) const {
         ImageDescription now = description_;
@@ -424,7 +459,12 @@ class SceneRender {
         choose_missing_exposure(now.frame);
         try {
             PreviewDriver(path, colors_).write(now.frame);
-            if (!request_.quiet) log_info("{}: preview after {} samples per pixel", path.string(), state.spp_done);
+            // Of a pass that was stopped, some pixels have samples.
+            const double spp =
+                static_cast<double>(state.counters.samples) / static_cast<double>(options_.window.area());
+            if (!request_.quiet)
+                log_info("{}: preview after {} samples per pixel", path.string(),
+                         spp < 10.0 ? fmt::format("{:.2g}", spp) : fmt::format("{:.0f}", spp));
         } catch (const IoError& error) {
             log_error("error: {}", error.what());
         }

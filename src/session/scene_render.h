@@ -23,6 +23,7 @@ struct SceneRenderRequest {
     /// The EXR; PNG and JSON stand beside it under the same name. Empty for NAME.exr here. Or a .partial, which holds
     /// the sums of a part of the image, to be merged with others.
     std::filesystem::path output{};
+    std::optional<int> first_frame{};  ///< number of the first frame of the image's sequence, in which `auto` chooses
     StrategiesRequest strategies{};
     SettingsOverrides overrides{};
     std::optional<SampleRange> samples{};     ///< of a part; without it, all

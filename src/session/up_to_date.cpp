@@ -60,6 +60,15 @@ std::vector<std::string> layer_files_of(const nlohmann::json& statistics) {
     return names;
 }
 
+/// Returns why `file`, which once had `bytes`, is damaged; empty if it is not. Other programs may have made it larger,
+/// and a PNG smaller.
+std::string damage_of(const fs::path& file, std::uintmax_t bytes) {
+    std::error_code error;
+    const std::uintmax_t now = fs::file_size(file, error);
+    if (error || now >= bytes || is_whole_png(file)) return "";
+    return fmt::format("{} is damaged: {} of {} bytes", file.filename().string(), now, bytes);
+}
+
 /// None if the statistics do not tell.
 std::optional<std::vector<InputFile>> inputs_of(const nlohmann::json& statistics) try {
     const auto list = value_of<nlohmann::json>(statistics, "inputs", &nlohmann::json::is_array);
@@ -90,20 +99,34 @@ std::string changes(const nlohmann::json& statistics, const RenderSettings& sett
 /// then.
 constexpr std::array<std::string_view, 5> kEnds{"/spp", "/time", "/error", "/adaptive", "/min_spp"};
 
-/// Returns `settings` with those of kEnds that the image of these statistics was asked for; none if they do not tell.
-std::optional<RenderSettings> with_ends_of(const nlohmann::json& statistics, RenderSettings settings) {
+bool is_end(const Setting& setting) {
+    return std::ranges::find(kEnds, setting.pointer) != kEnds.end();
+}
+
+/// True for settings that say how the sums are shown, or what is told of them.
+bool shows_sums(const Setting& setting) {
+    return setting.decides == Decides::Display || setting.decides == Decides::Report;
+}
+
+/// Returns `settings` with those of which `is_meant` is true as the image of these statistics was asked for them; none
+/// if they do not tell.
+template <typename IsMeant>
+std::optional<RenderSettings> as_made(const nlohmann::json& statistics, RenderSettings settings,
+                                      const IsMeant& is_meant) {
     const auto requested = value_of<nlohmann::json>(statistics, "requested_settings", &nlohmann::json::is_object);
     if (!requested) return std::nullopt;
-    for (const std::string_view pointer : kEnds) {
-        const Setting& setting = *find_setting(pointer);
+    for (const Setting& setting : settings_table()) {
+        if (!is_meant(setting)) continue;
         SettingValue value = default_value(setting);
-        if (const auto found = requested->find(pointer); found != requested->end()) {
+        if (const auto found = requested->find(setting.pointer); found != requested->end()) {
             if (found->is_boolean())
                 value = found->get<bool>();
             else if (found->is_number_integer() && std::holds_alternative<std::int64_t>(value))
                 value = found->get<std::int64_t>();
             else if (found->is_number())
                 value = found->get<double>();
+            else if (found->is_string())
+                value = found->get<std::string>();
             else
                 return std::nullopt;
         }
@@ -159,7 +182,23 @@ std::optional<Staleness> why_unfinished(const OutputPaths& output) {
     for (const std::string& name : layer_files_of(statistics))
         if (!fs::exists(output.json.parent_path() / name, error))
             return Staleness{.reason = name + " is missing", .is_unfinished = true};
+    const nlohmann::json sizes = value_of<nlohmann::json>(statistics, "file_sizes", &nlohmann::json::is_object)
+                                     .value_or(nlohmann::json::object());
+    for (const auto& [name, bytes] : sizes.items()) {
+        const fs::path file = output.json.parent_path() / fs::path(name).filename();
+        if (!bytes.is_number_unsigned() || (output.png.empty() && file.extension() == ".png")) continue;
+        if (const std::string damage = damage_of(file, bytes.get<std::uintmax_t>()); !damage.empty())
+            return Staleness{.reason = damage, .is_unfinished = true};
+    }
     return std::nullopt;
+}
+
+bool is_whole_png(const fs::path& file) {
+    constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+    std::ifstream in(file, std::ios::binary);
+    in.seekg(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);
+    std::string end(kEnd.size(), ' ');
+    return in.read(end.data(), static_cast<std::streamsize>(end.size())) && end == kEnd;
 }
 
 std::vector<std::string> listed_layer_files(const OutputPaths& output) {
@@ -186,10 +225,14 @@ std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc
     const auto hash = value_of<std::string>(statistics, "settings_hash", &nlohmann::json::is_string);
     if (hash == settings_hash(scene, depth)) return std::nullopt;
     Staleness stale{.reason = fmt::format("settings changed{}", changes(statistics, scene.settings))};
-    const std::optional<RenderSettings> made = with_ends_of(statistics, scene.settings);
-    if (!made || hash != settings_hash(scene, *made, depth)) return stale;
-    if (has_reached(statistics, *made, scene.settings)) return std::nullopt;
-    stale.done = std::min(1.0, number_at(statistics, "/spp/done").value_or(0.0) / scene.settings.spp);
+    const auto is_of = [&](const std::optional<RenderSettings>& made) {
+        return made && hash == settings_hash(scene, *made, depth);
+    };
+    const std::optional<RenderSettings> made = as_made(statistics, scene.settings, is_end);
+    if (is_of(made) && has_reached(statistics, *made, scene.settings)) return std::nullopt;
+    const auto decides_no_sums = [](const Setting& setting) { return is_end(setting) || shows_sums(setting); };
+    if (is_of(made) || is_of(as_made(statistics, scene.settings, decides_no_sums)))
+        stale.done = std::min(1.0, number_at(statistics, "/spp/done").value_or(0.0) / scene.settings.spp);
     return stale;
 }
 

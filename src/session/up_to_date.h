@@ -20,9 +20,12 @@ struct Staleness {
     double done = 0.0;
 };
 
-/// Returns why the files of `output` are no completed image: one is missing, or they are of a render that was cut
-/// short; none if they are of a completed render.
+/// Returns why the files of `output` are no completed image: one is missing or damaged, or they are of a render that
+/// was cut short; none if they are of a completed render.
 [[nodiscard]] std::optional<Staleness> why_unfinished(const OutputPaths& output);
+
+/// Returns whether `file` ends as a PNG does.
+[[nodiscard]] bool is_whole_png(const std::filesystem::path& file);
 
 /// Names of the layers and depths in files of their own that the statistics of `output` list, which lie beside the
 /// image; none if there are no statistics.

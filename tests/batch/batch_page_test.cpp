@@ -1,5 +1,6 @@
 #include "batch/batch_page.h"
 
+#include "batch/batch_table.h"
 #include "core/error.h"
 #include "image/write.h"
 #include "program/small_files.h"
@@ -41,6 +42,14 @@ BatchReport report_of(const std::vector<std::string>& names) {
         report.units.push_back(unit);
     }
     return report;
+}
+
+TEST(BatchTable, CountsWhatWasNotStarted) {
+    BatchReport report = report_of({"a", "b"});
+    report.units[1].outcome = UnitOutcome::NotStarted;
+    EXPECT_NE(to_table(report, "out").find("\n1 image was not started\n"), std::string::npos);
+    report.units[0].outcome = UnitOutcome::NotStarted;
+    EXPECT_NE(to_table(report, "out").find("\n2 images were not started\n"), std::string::npos);
 }
 
 Json images_of(const std::filesystem::path& page) {

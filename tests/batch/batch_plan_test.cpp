@@ -99,6 +99,22 @@ TEST_F(BatchPlanTest, SaysWhatCanBeGoneOnWith) {
     EXPECT_EQ(reason(), "never rendered") << "somebody has removed the image";
 }
 
+TEST_F(BatchPlanTest, SaysWhatIsNotDenoised) {
+    render();
+    options_.denoise = true;
+    const std::string png("...\0\0\0\0IEND\xae\x42\x60\x82", 15);
+    EXPECT_EQ(reason(), "was not denoised");
+    write_file(folder_ / "box.denoised.exr", "exr");
+    EXPECT_EQ(reason(), "was not denoised") << "there is no PNG";
+    write_file(folder_ / "box.denoised.png", png.substr(0, 14));
+    EXPECT_EQ(reason(), "was not denoised") << "it is cut";
+    write_file(folder_ / "box.denoised.png", png);
+    EXPECT_EQ(reason(), "");
+    options_.overrides.png = false;
+    fs::remove(folder_ / "box.denoised.png");
+    EXPECT_EQ(reason(), "");
+}
+
 TEST_F(BatchPlanTest, TellsTwoStatesOfAFileApart) {
     const fs::path file = folder_ / "file";
     EXPECT_EQ(FileStamp::of(file), FileStamp{});
@@ -123,6 +139,14 @@ TEST_F(BatchPlanTest, SaysWhatMoreSamplesGoOnFrom) {
     write_file(folder_ / "box.sums", "");
     EXPECT_EQ(reason(), "settings changed: spp: 12 -> 48, goes on from its sums");
     EXPECT_EQ(unit_.done, 0.25);
+    options_.overrides.give("--spp", "12");
+    options_.overrides.give("--exposure", "2");
+    options_.overrides.give("--owner", "me");
+    EXPECT_EQ(reason(),
+              "settings changed: color.exposure: null -> 2; metadata.owner: null -> \"me\", goes on from its sums");
+    EXPECT_EQ(unit_.done, 1.0) << "only its files are written";
+    options_.overrides.give("--seed", "2");
+    EXPECT_EQ(reason().find("sums"), std::string::npos) << "it is another image";
 }
 
 TEST_F(BatchPlanTest, IsSummedUp) {

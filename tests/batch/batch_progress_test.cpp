@@ -119,6 +119,13 @@ TEST(FormatClock, NamesTheDayUnlessItIsToday) {
     EXPECT_EQ(format_clock(now + std::chrono::days(9), now), "2026-12-07 12:00");
 }
 
+TEST(BatchProgress, SaysWhenSomethingFailed) {
+    testing::internal::CaptureStderr();
+    BatchProgress(true).say_error("error: no");
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(std::regex_match(said, std::regex(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d  error: no\n)"))) << said;
+}
+
 TEST(BatchLog, HasEveryLineWithItsTime) {
     const TestFolder folder;
     {

@@ -4,7 +4,9 @@
 #include "program/small_files.h"
 #include "session/usage_error.h"
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,7 +24,11 @@ class BatchUnits : public testing::Test {
         options_.output = "out";
     }
     [[nodiscard]] std::vector<BatchTask> collect(const Names& variants = {}, const Names& cameras = {}) const {
-        return collect_tasks(options_, [&](const std::filesystem::path&) { return SceneNames{variants, cameras}; });
+        return collect_tasks(options_,
+                             [&](const std::filesystem::path&) {
+                                 return SceneNames{variants, cameras};
+                             })
+            .chosen;
     }
     [[nodiscard]] static Names images(const std::vector<BatchTask>& tasks) {
         Names names;
@@ -86,6 +92,57 @@ TEST_F(BatchUnits, AreNamedAfterThePattern) {
     EXPECT_NO_THROW(check_name_pattern("{scene}/{variant}/{camera}.{frame}"));
 }
 
+TEST_F(BatchUnits, StayBelowTheOutputDirectoryWhateverThePatternIsGiven) {
+    write_scene(folder_ / "scenes/a");
+    options_.all_variants = true;
+    for (const auto& [pattern, image] : {std::pair("{camera}/{scene}", "out/a.exr"),
+                                         std::pair("{variant}/tmp/{camera}/{scene}/{frame}", "out/tmp/a.exr")}) {
+        options_.name_pattern = pattern;
+        EXPECT_EQ(images(collect()), Names{image}) << pattern;
+    }
+    options_.name_pattern = "{variant}/{scene}";
+    EXPECT_EQ(images(collect({"..", "."})), (Names{"out/__/a.exr", "out/_/a.exr"}));
+    for (const char* wrong : {"{camera}", "{variant}.{camera}", "x{camera}/{camera}../{scene}"}) {
+        options_.name_pattern = wrong;
+        EXPECT_THROW((void)collect(), UsageError) << wrong;
+    }
+}
+
+TEST_F(BatchUnits, AreFilesIfTheseAreGiven) {
+    write_scene(folder_ / "scenes/lib");
+    std::filesystem::copy(folder_ / "scenes/lib/scene.gltf", folder_ / "scenes/lib/fox.gltf");
+    options_.roots = {(folder_ / "scenes/lib/fox.gltf").string(), (folder_ / "scenes/lib/scene.gltf").string()};
+    const std::vector<BatchTask> tasks = collect();
+    EXPECT_EQ(images(tasks), (Names{"out/fox.exr", "out/scene.exr"}));
+    EXPECT_EQ(tasks[0].job.scene.filename(), "fox.gltf");
+}
+
+TEST_F(BatchUnits, AndTheirScenesAreSafeFromTheLog) {
+    write_scene(folder_ / "scenes/a");
+    options_.log = folder_ / "scenes/a/render.json";
+    EXPECT_THROW((void)collect(), ReplacedInput);
+    for (const char* file : {"ledger.jsonl", "../out/a.json", "index.html"}) {
+        options_.log = options_.output / file;
+        EXPECT_THROW((void)collect(), UsageError) << file;
+    }
+    options_.log = options_.output / "night.log";
+    EXPECT_EQ(collect().size(), 1u);
+}
+
+TEST_F(BatchUnits, CannotBeDenoisedByAnySettings) {
+    write_scene(folder_ / "scenes/a");
+    const BatchTask task = collect().front();
+    EXPECT_EQ(why_not_denoised(task, options_), "");
+    for (const std::vector<std::string>& wrong :
+         {Names{"--spp", "1"}, Names{"--aov-layout", "files"}, Names{"--aces-container"}}) {
+        BatchOptions options = options_;
+        options.overrides.give(wrong[0], wrong.size() > 1 ? wrong[1] : "");
+        EXPECT_TRUE(why_not_denoised(task, options).starts_with("error: --denoise: ")) << wrong[0];
+    }
+    write_scene(folder_ / "scenes/a", R"("aov_layout": "files",)");
+    EXPECT_NE(why_not_denoised(task, options_), "");
+}
+
 TEST_F(BatchUnits, AreThoseThatGlobsChoose) {
     for (const char* scene : {"shots/a", "shots/b", "props/lamp"}) write_scene(folder_ / "scenes" / scene);
     options_.only = {"shots/*"};
@@ -106,6 +163,8 @@ TEST_F(BatchUnits, AreThoseThatGlobsChoose) {
             << error.what();
     }
     options_.only = {"a"};
+    options_.exclude = {"nothing"};
+    EXPECT_EQ(collect().size(), 12u) << "what is not there need not be left out";
     options_.exclude = {"shots"};
     EXPECT_THROW((void)collect(), UsageError) << "nothing is left";
 }

@@ -121,6 +121,7 @@ TEST_F(Batch, RendersEachImageInAProcessOfItsOwnAndTellsOfIt) {
                                           "index.html", "ledger.jsonl", "report.json"}));
     EXPECT_NE(result.err.find("2 of 2 images to render: 2 never rendered"), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("[2/2] b/c: rendered in"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("  b/c: auto chose "), std::string::npos) << result.err;
     EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a", 1}, {"b/c", 1}}));
     EXPECT_EQ(events("batch finished").front()["rendered"], 2);
     const json report = json::parse(read_file(work_ / "out/report.json"));
@@ -166,6 +167,7 @@ TEST_F(Batch, ADryRunPrintsThePlanAndWritesNothing) {
     const json plan = json::parse(run({"--dry-run", "--json", "--seed", "3"}).out);
     EXPECT_EQ(plan["stale"], 2);
     EXPECT_EQ(plan["units"][1]["reason"], "settings changed: seed: 0 -> 3");
+    EXPECT_EQ(run({"--dry-run", "--seed", "3", "--log", "log"}).exit_code, 0);
     EXPECT_TRUE(plan["units"][1]["estimated_seconds"].is_null());
     EXPECT_EQ(list(work_), before);
 }
@@ -207,9 +209,53 @@ TEST_F(Batch, OptionsThatFitNoSceneAreSaidOnce) {
         EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
         EXPECT_TRUE(list(work_).empty());
     }
-    const ProgramResult camera = with_probe({"--camera", "front"});
+    const ProgramResult camera =
+        with_probe({"--camera", "front", "--on-finish", "echo $ETENDUE_FAILED $ETENDUE_EXIT_CODE > finished"});
     EXPECT_EQ(camera.exit_code, 2) << camera.err;
     EXPECT_TRUE(events("unit started").empty()) << "no scene has it";
+    EXPECT_EQ(count("unit failed"), (std::map<std::string, int>{{"a", 1}, {"b", 1}}));
+    EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["totals"]["failed"], 2);
+    EXPECT_EQ(read_file(work_ / "finished"), "2 2\n");
+    EXPECT_EQ(json::parse(run({"--failed", "--dry-run", "--json"}).out)["stale"], 2);
+}
+
+TEST_F(Batch, WhatIsToFollowFollowsAnyEnd) {
+    fs::create_directories(folder_ / "scenes");
+    const auto end_of = [&](const Names& more) {
+        Names all{"--on-finish", "echo $ETENDUE_EXIT_CODE > finished", "--log", "out/night.log"};
+        all.insert(all.end(), more.begin(), more.end());
+        const int code = run(all).exit_code;
+        EXPECT_EQ(read_file(work_ / "finished"), fmt::format("{}\n", code));
+        return code;
+    };
+    EXPECT_EQ(end_of({}), 3) << "there are no scenes";
+    EXPECT_NE(read_file(work_ / "out/night.log").find("no scene directory"), std::string::npos);
+    add_scene("a");
+    EXPECT_EQ(end_of({"--failed"}), 0) << "none has";
+    EXPECT_EQ(end_of({"--display", "none"}), 2);
+    fs::remove_all(work_ / "out");
+    fs::create_directories(work_ / "out/ledger.jsonl");
+    EXPECT_EQ(end_of({}), 1) << "nothing can be written there";
+}
+
+TEST_F(Batch, EachCameraIsLookedAt) {
+    add_scene("a");
+    const fs::path file = folder_ / "scenes/a/scene.gltf";
+    json scene = json::parse(read_file(file));
+    scene["cameras"].push_back(scene["cameras"][0]);
+    scene["cameras"].back()["name"] = "top";
+    scene["nodes"].push_back({{"camera", scene["cameras"].size() - 1}});
+    scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
+    // A second scene of the file without the first camera.
+    scene["scenes"].push_back({{"name", "other"}, {"nodes", {0, scene["nodes"].size() - 1}}});
+    write_file(file, scene.dump());
+    const json plan = json::parse(run({"--cameras", "all", "--dry-run", "--json"}).out);
+    ASSERT_EQ(plan["units"].size(), 2u);
+    EXPECT_EQ(plan["units"][0]["camera"], "main");
+    EXPECT_EQ(plan["units"][1]["camera"], "top");
+    const json other = json::parse(run({"--cameras", "all", "--dry-run", "--json", "--scene", "other"}).out);
+    ASSERT_EQ(other["units"].size(), 1u);
+    EXPECT_EQ(other["units"][0]["camera"], "top");
 }
 
 TEST_F(Batch, ShowsWhatIsRunningAndWhenItEnds) {
@@ -277,6 +323,17 @@ TEST_F(Batch, MakesWhatIsChosenAndTellsOfItWhereItIsAsked) {
     EXPECT_EQ(failed["units"].size(), 1u);
     EXPECT_EQ(failed["units"][0]["reason"], "failed last time");
     EXPECT_NE(run({"--failed", "--only", "a"}).err.find("no image in out failed last time"), std::string::npos);
+    // What is left out stays in the report.
+    EXPECT_EQ(run({"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--only", "a"}).exit_code, 0);
+    json report = json::parse(read_file(work_ / "out/report.json"));
+    ASSERT_EQ(report["units"].size(), 2u);
+    EXPECT_EQ(report["units"][1]["outcome"], "failed");
+    EXPECT_EQ(report["units"][1]["chosen"], false);
+    EXPECT_NE(report["units"][1]["error"].get<std::string>().find("spq"), std::string::npos);
+    EXPECT_EQ(run({"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--only", "b"}).exit_code, 1);
+    report = json::parse(read_file(work_ / "out/report.json"));
+    EXPECT_EQ(report["units"][1]["outcome"], "up to date");
+    EXPECT_EQ(report["units"][1]["spp"], 2);
 }
 
 TEST_F(Batch, DenoisesWhatIsNotDenoisedYet) {
@@ -290,6 +347,35 @@ TEST_F(Batch, DenoisesWhatIsNotDenoisedYet) {
     EXPECT_NE(run({"--denoise"}).err.find("1 was not denoised"), std::string::npos);
     EXPECT_EQ(fs::last_write_time(work_ / "out/a.exr"), time) << "it was not rendered again";
     EXPECT_TRUE(fs::exists(work_ / "out/a.denoised.png"));
+    const ProgramResult never = run({"--denoise", "--spp", "1", "--dry-run"});
+    EXPECT_EQ(never.exit_code, 2) << never.out;
+    EXPECT_NE(never.out.find("will fail"), std::string::npos) << never.out;
+}
+
+TEST_F(Batch, ShowsWhatIsDenoisedAsTheImage) {
+    add_scene("a");
+    EXPECT_EQ(run({"--denoise", "--view", "Un-tone-mapped", "--exposure", "-1.5", "--integrator", "path"}).exit_code,
+              0);
+    const auto shown = [&](Names how) {
+        how.insert(how.begin(), {"view", "out/a.denoised.exr", "-o", "shown.png", "--quiet"});
+        EXPECT_EQ(run_etendue(how, work_).exit_code, 0);
+        return read_file(work_ / "shown.png");
+    };
+    EXPECT_EQ(read_file(work_ / "out/a.denoised.png"), shown({"--view", "Un-tone-mapped", "--exposure", "-1.5"}));
+    EXPECT_NE(read_file(work_ / "out/a.denoised.png"), shown({}));
+}
+
+/// A directory stands where the image without noise is to be written.
+TEST_F(Batch, RendersNothingAgainAsDenoisingFailed) {
+    add_scene("a");
+    EXPECT_EQ(run().exit_code, 0);
+    fs::create_directories(work_ / "out/a.denoised.exr/in the way");
+    const ProgramResult result = run({"--denoise", "--force"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_EQ(count("unit failed")["a"], 2) << result.err;
+    const std::size_t first = result.err.find("auto chose");
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("auto chose", first + 1), std::string::npos) << result.err;
 }
 
 TEST_F(Batch, SaysANoteOfAManyFramedSceneOnce) {
@@ -506,7 +592,7 @@ TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
     add_scene("a");
     add_scene("b");
     write_file(folder_ / "scenes/a/render.json", settings);
-    for (const auto& [signal, code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
+    for (const auto& [signal, code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}, std::pair{SIGHUP, 143}}) {
         fs::remove_all(work_ / "out");
         const auto batch = start({"--threads", "1", "--checkpoint-every", "0.001"});
         // A signal that comes before there are samples leaves nothing to go on with.

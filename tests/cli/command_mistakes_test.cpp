@@ -68,6 +68,7 @@ TEST_F(CommandMistakes, SayWhatIsMissing) {
     expect_usage_error({"merge", "gone.partial", "-o", "y.exr"}, {"parts: there is no file 'gone.partial'"});
     expect_usage_error({"batch", "shots/*", "-o", "out"},
                        {"there is no directory 'shots/*'", "nothing that the pattern"});
+    expect_usage_error({"batch", "gone.glb", "-o", "out"}, {"there is no file 'gone.glb'"});
     expect_usage_error({"render", "scenes/box", "--environment", "gone.hdr"},
                        {"--environment: there is no file 'gone.hdr'"});
     expect_refused({"render", "scenes"}, 3, {"scenes are below it, such as 'scenes/box'", "'etendue batch'"});

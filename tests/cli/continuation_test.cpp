@@ -234,6 +234,35 @@ TEST_F(Continuation, ShowsAPreviewAndGoesOn) {
     EXPECT_NE(result.err.find("a.preview.png: preview after"), std::string::npos) << result.err;
 }
 
+TEST_F(Continuation, RemovesThePreviewOfAFinishedImage) {
+    write_file(work_ / "a.preview.png", "as SIGUSR1 left it");
+    EXPECT_EQ(run(render(1, "a.exr")).exit_code, 0);
+    EXPECT_FALSE(fs::exists(work_ / "a.preview.png"));
+    EXPECT_EQ(run(render(1, "a.preview.exr")).exit_code, 0);
+    EXPECT_EQ(run(render(1, "a.exr")).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work_ / "a.preview.png")) << "it is another image's";
+}
+
+/// The choice is as good as any name in the file of the first frame, and there none.
+TEST_F(Continuation, ASequenceHasTheIntegratorOfItsFirstFrame) {
+    (void)animated_scene((folder_ / "box").string());
+    const auto frame = [&](int number, const Arguments& more) {
+        Arguments all{"--frames", fmt::format("{0}:{0}", number), "--quiet"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_EQ(run(render(1, "a.exr", all)).exit_code, 0);
+        return json::parse(read_file(work_ / fmt::format("a.{:04}.json", number)));
+    };
+    const std::string choice = frame(2, {"--first-frame", "1"})["integrator_choice"];
+    EXPECT_TRUE(choice.ends_with(" in frame 1, the first")) << choice;
+    json statistics = json::parse(read_file(work_ / "a.0002.json"));
+    statistics["integrator"] = "vcm";
+    write_file(work_ / "a.0002.json", statistics.dump());
+    EXPECT_EQ(frame(3, {"--first-frame", "1"})["integrator_choice"], "'vcm', as in frame 2");
+    EXPECT_EQ(json::parse(read_file(work_ / "a.0003.json"))["integrator"], "vcm");
+    const std::string other = frame(4, {"--seed", "3"})["integrator_choice"];
+    EXPECT_EQ(other.find("in frame"), std::string::npos) << "other settings, another sequence: " << other;
+}
+
 TEST_F(Continuation, StopsAtTheErrorThatWasAskedFor) {
     const ProgramResult result = run(render(100000, "a.exr", {"--error", "0.2", "--json", "--quiet"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;

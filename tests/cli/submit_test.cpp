@@ -399,6 +399,10 @@ TEST_F(Submit, ADryRunWritesNothing) {
                     work_);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.out.find("aftercorr:JOB-OF-render-0:JOB-OF-render-1"), std::string::npos) << result.out;
+    fs::remove(folder_ / "slurm/scontrol");
+    const ProgramResult elsewhere = submit({"--dry-run", "--task-minutes", "5", "--task-memory", "512M"});
+    EXPECT_EQ(elsewhere.exit_code, 0) << elsewhere.err;
+    EXPECT_NE(elsewhere.err.find("job arrays are taken to have 1001 tasks"), std::string::npos) << elsewhere.err;
     EXPECT_FALSE(fs::exists(out()));
     EXPECT_TRUE(slurm_.calls("sbatch").empty());
     EXPECT_EQ(list(folder_ / "scenes"), before);

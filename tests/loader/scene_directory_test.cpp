@@ -42,6 +42,28 @@ TEST(LoadScene, TakesExtensionsInUpperCase) {
     EXPECT_EQ(find_scene_directories(dir.path()).size(), 1u);
 }
 
+TEST(FindSceneDirectories, FollowsLinksButNotInCirclesAndNotThoseOfAScene) {
+    namespace fs = std::filesystem;
+    const TempDir dir;
+    const TempDir outside;
+    outside.write("shot/a.glb", lone_triangle());
+    outside.write("other/b.glb", lone_triangle());
+    dir.write("z/c.glb", lone_triangle());
+    fs::create_directory_symlink(dir.path() / "z", dir.path() / "a-is-z");
+    fs::create_directory_symlink(outside.path() / "shot", dir.path() / "b-is-shot");
+    fs::create_directory_symlink(dir.path(), dir.path() / "circle");
+    fs::create_directory_symlink(dir.path(), outside.path() / "shot/back");
+    fs::create_directory_symlink(outside.path() / "other", dir.path() / "z/of-the-scene");
+    EXPECT_EQ(find_scene_directories(dir.path()), (std::vector<fs::path>{dir.path() / "b-is-shot", dir.path() / "z"}));
+    fs::create_directory_symlink(outside.path(), dir.path() / "all");
+    EXPECT_EQ(find_scene_directories(dir.path() / "all"),
+              (std::vector<fs::path>{dir.path() / "all/other", dir.path() / "all/shot"}))
+        << "a link that is given";
+    fs::create_directories(outside.path() / "empty");
+    fs::create_directory_symlink(outside.path(), outside.path() / "empty/up");
+    EXPECT_TRUE(find_scene_directories(outside.path() / "empty").empty()) << "nothing above is searched";
+}
+
 TEST(LoadScene, SeveralFilesNeedAChoice) {
     const TempDir dir;
     dir.write("a.glb", lone_triangle());
@@ -169,15 +191,6 @@ TEST(FindSceneDirectories, FindsThemSortedAtEveryDepth) {
                                                   root / "two", root / "two/deeper"}))
         << "loading says of two files in one directory that one must be named";
     EXPECT_EQ(find_scene_directories(root / "b"), (std::vector<std::filesystem::path>{root / "b", root / "b/inner"}));
-}
-
-TEST(FindSceneDirectories, DoesNotFollowLinks) {
-    const TempDir outside;
-    outside.write("scene.glb", "");
-    const TempDir dir;
-    std::filesystem::create_directory_symlink(outside.path(), dir.path() / "link");
-    std::filesystem::create_directory_symlink(dir.path(), dir.path() / "loop");
-    EXPECT_TRUE(find_scene_directories(dir.path()).empty());
 }
 
 TEST(FindSceneDirectories, NeedsADirectory) {

@@ -205,6 +205,22 @@ TEST_F(UpToDate, NotWhenAFileOfALayerIsMissing) {
     EXPECT_EQ(reason(), "");
 }
 
+TEST_F(UpToDate, NotWhenAFileIsDamaged) {
+    RenderStatistics statistics = complete();
+    statistics.file_sizes = {{"image.exr", 3}, {"image.png", 100}};
+    write_report(statistics);
+    EXPECT_EQ(reason(), "image.png is damaged: 3 of 100 bytes");
+    write_file(output_.png, std::string("small\0\0\0\0IEND\xae\x42\x60\x82", 17));
+    EXPECT_EQ(reason(), "") << "somebody has made it smaller";
+    write_file(output_.exr, "ex");
+    EXPECT_EQ(reason(), "image.exr is damaged: 2 of 3 bytes");
+    write_file(output_.exr, "with more in its header");
+    EXPECT_EQ(reason(), "");
+    write_file(output_.png, "");
+    output_.png.clear();
+    EXPECT_EQ(reason(), "") << "nobody asks for it";
+}
+
 TEST_F(UpToDate, NotWhenTheRenderWasCutShortOrItsReportIsForeign) {
     RenderStatistics statistics = complete();
     statistics.complete = false;
