@@ -61,7 +61,7 @@ struct AcceleratorStatistics {
     std::size_t bytes = 0;       ///< bytes of the structure, without the triangles
     std::size_t nodes = 0;       ///< nodes of a tree, or cells of a grid
     std::size_t references = 0;  ///< how often leaves and cells name a triangle; more than there are if space is split
-    int depth = 0;               ///< of the deepest leaf below the root
+    int depth = 0;               ///< levels from the root to the deepest leaf
 };
 
 class RaySearch;

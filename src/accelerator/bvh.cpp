@@ -34,8 +34,8 @@ int longest_axis(const Bounds& box) {
 
 struct Bvh::Builder {
     Bvh& bvh;
-    std::vector<Bounds> boxes;     ///< of each triangle
-    std::vector<Vec3f> centers{};  ///< of each box
+    std::vector<Bounds> boxes;     ///< bounds of each triangle
+    std::vector<Vec3f> centers{};  ///< centre of each box
 
     using Range = std::span<std::uint32_t>;
 

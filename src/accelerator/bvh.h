@@ -31,8 +31,8 @@ class Bvh final : public Accelerator {
     /// Is a leaf, or an inner node, whose first child is the next node.
     struct Node {
         Bounds box;
-        std::uint32_t first;  ///< of a leaf, its first triangle in `order_`; else the second child
-        std::uint32_t count;  ///< of a leaf, its triangles; 0 for an inner node
+        std::uint32_t first;  ///< first triangle of a leaf in `order_`; of an inner node, the second child
+        std::uint32_t count;  ///< number of a leaf's triangles; 0 for an inner node
     };
     struct Builder;
 

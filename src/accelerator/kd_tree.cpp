@@ -46,7 +46,8 @@ struct KdTree::Builder {
 
     /// A plane across an axis, and what it would cost.
     struct Split {
-        double work = std::numeric_limits<double>::infinity();  ///< of both children, times the node's half area
+        /// Holds the expected work in both children, times the node's half area.
+        double work = std::numeric_limits<double>::infinity();
         int axis = 0;
         float plane = 0.0f;
     };
@@ -183,7 +184,7 @@ void KdTree::make(std::span<const Triangle> triangles) {
 void KdTree::trace(RaySearch& search) const {
     if (nodes_.empty()) return;
     struct Waiting {
-        SlabTest::Interval part;  ///< of the ray, in the node
+        SlabTest::Interval part;  ///< part of the ray in the node
         std::uint32_t node;
     };
     std::array<Waiting, kMostDepth + 1> stack;

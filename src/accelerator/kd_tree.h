@@ -23,10 +23,11 @@ class KdTree final : public Accelerator {
 
     /// Is a leaf, or an inner node, whose child below the plane is the next node.
     struct Node {
-        float plane;          ///< coordinate on the axis
-        std::uint32_t axis;   ///< 0, 1, 2, or kLeaf
-        std::uint32_t first;  ///< of a leaf, its first triangle in `references_`; else the child above the plane
-        std::uint32_t count;  ///< of a leaf, its triangles
+        float plane;         ///< coordinate on the axis
+        std::uint32_t axis;  ///< 0, 1, 2, or kLeaf
+        /// Holds the first triangle of a leaf in `references_`; of an inner node, the child above the plane.
+        std::uint32_t first;
+        std::uint32_t count;  ///< number of a leaf's triangles
     };
     struct Builder;
 

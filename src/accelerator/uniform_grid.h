@@ -43,9 +43,9 @@ class UniformGrid final : public Accelerator {
     std::span<const Triangle> triangles_;
     Bounds bounds_;
     Vec3d low_{0.0};
-    Vec3d side_{0.0};                   ///< of a cell, metres
+    Vec3d side_{0.0};                   ///< sides of a cell, metres
     Place cells_{};                     ///< on each axis
-    std::vector<std::uint32_t> first_;  ///< of each cell, its first triangle in `references_`; one more for the end
+    std::vector<std::uint32_t> first_;  ///< first triangle of each cell in `references_`; one more for the end
     std::vector<std::uint32_t> references_;
 };
 

@@ -33,10 +33,10 @@ struct LedgerEvent {
     std::string taken_over_from{};       ///< "host:pid" of the dead process that had begun the unit
     std::optional<int> exit_code{};      ///< exit code of the process that ended
     std::string signal{};                ///< "SIGSEGV", if one ended it
-    std::string error{};                 ///< what went wrong
+    std::string error{};                 ///< message of the failure
     std::vector<std::string> log{};      ///< last lines of that process, oldest first
     std::optional<double> seconds{};     ///< seconds that it took
-    bool again = false;                  ///< the same process tries again at once
+    bool again = false;                  ///< whether this process tries again at once
     std::optional<std::size_t> units{};  ///< units of a batch
     std::size_t rendered = 0;            ///< units that a batch had rendered when it ended
     std::size_t failed = 0;              ///< units that had failed when it ended

@@ -41,7 +41,7 @@ template <typename T>
 struct BasicBsdfSample {
     Imath::Vec3<T> wi{T(0.0f)};
     BasicRgb<T> weight;       ///< f |cos theta_i| / pdf; for a delta part, its albedo over its probability
-    T pdf_solid_angle{0.0f};  ///< of all non-delta parts together; not meaningful if `is_delta`
+    T pdf_solid_angle{0.0f};  ///< density of all non-delta parts together, 1/sr; not meaningful if `is_delta`
     bool is_delta = false;    ///< true of all lanes or of none
     bool is_transmission = false;
     T eta{1.0f};  ///< index on wi's side over the index on wo's side, for Russian roulette

@@ -29,7 +29,7 @@ struct RoughDielectric {
     float multiple_transmitted_inside = 0.0f;
     float missing_average_outside = 1.0f;  ///< 1 - E averaged over a cosine-weighted hemisphere
     float missing_average_inside = 1.0f;
-    Rgb tint{1.0f};  ///< of transmitted light, [0, 1]
+    Rgb tint{1.0f};  ///< tint of transmitted light, [0, 1]
     InterfaceFresnel fresnel{};
 
     /// Prepares the shares above. Indices beyond those tabulated are taken for the largest or smallest that are.
@@ -51,7 +51,7 @@ struct RoughDielectric {
     struct Returned {
         float single;
         float multiple;
-        float pdf_solid_angle;  ///< of `sample_returned`
+        float pdf_solid_angle;  ///< density of `sample_returned`, 1/sr
         Vec3f out_o, out_i;
     };
     [[nodiscard]] Returned evaluate_returned(const Vec3f& wo, const Vec3f& wi) const;

@@ -15,7 +15,7 @@ namespace etendue {
 [[nodiscard]] Rgb rough_over_lambertian(const Rgb& albedo, float roughness, const Vec3f& wo, const Vec3f& wi);
 
 struct RoughDiffuse {
-    Rgb albedo{0.5f};        ///< of the facets, [0, 1]
+    Rgb albedo{0.5f};        ///< albedo of the facets, [0, 1]
     float roughness = 0.0f;  ///< [0, 1]; 0 is Lambert's surface
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;

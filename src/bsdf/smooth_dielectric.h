@@ -12,7 +12,7 @@ namespace etendue {
 
 struct SmoothDielectric {
     float ior = 1.5f;  ///< index inside (z < 0) over index outside, > 0
-    Rgb tint{1.0f};    ///< of transmitted light, [0, 1]
+    Rgb tint{1.0f};    ///< tint of transmitted light, [0, 1]
     InterfaceFresnel fresnel{};
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f&, const Vec3f&, TransportMode) const { return {}; }

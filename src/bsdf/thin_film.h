@@ -17,7 +17,7 @@ using XyzToWorking = std::array<Rgb, 3>;
 
 struct ThinFilm {
     float strength = 0.0f;                         ///< share of the surface that is covered, [0, 1]; 0 is no film
-    float ior = 1.3f;                              ///< of the film, >= 1; what lies above it has 1
+    float ior = 1.3f;                              ///< index of the film, >= 1; the medium above it has 1
     float thickness_nm = 0.0f;                     ///< nanometres, >= 0
     const XyzToWorking* xyz_to_working = nullptr;  ///< not null if there is a film
 

@@ -54,9 +54,9 @@ struct PinholeCamera {
     static constexpr bool kPanoramic = false;  ///< true if no plane film shows what the camera sees
 
     CameraPose pose;
-    float half_width = 0.5f;   ///< of the image plane at distance 1
-    float half_height = 0.5f;  ///< of the image plane at distance 1
-    Vec2f center{0.0f, 0.0f};  ///< of the film on that plane, x right and y up from the viewing direction
+    float half_width = 0.5f;   ///< half the extent of the image plane at distance 1
+    float half_height = 0.5f;  ///< half the extent of the image plane at distance 1
+    Vec2f center{0.0f, 0.0f};  ///< middle of the film on that plane, x right and y up from the viewing direction
     ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
@@ -97,7 +97,7 @@ struct OrthographicCamera {
     CameraPose pose;
     float half_width = 1.0f;   ///< metres
     float half_height = 1.0f;  ///< metres
-    Vec2f center{0.0f, 0.0f};  ///< of the film, metres right and up from the viewing direction
+    Vec2f center{0.0f, 0.0f};  ///< middle of the film, metres right and up from the viewing direction
     ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
@@ -131,9 +131,9 @@ struct FisheyeCamera {
     static constexpr bool kPanoramic = true;  ///< true if no plane film shows what the camera sees
 
     CameraPose pose;
-    float half_width = 1.0f;        ///< of the film, in radii of the circle
-    float half_height = 1.0f;       ///< of the film, in radii of the circle
-    Vec2f center{0.0f, 0.0f};       ///< of the film, in radii right and up from the circle's
+    float half_width = 1.0f;        ///< half the extent of the film, in radii of the circle
+    float half_height = 1.0f;       ///< half the extent of the film, in radii of the circle
+    Vec2f center{0.0f, 0.0f};       ///< middle of the film, in radii right and up from the circle's
     float half_angle = kPi / 2.0f;  ///< that the circle's edge sees, radians, (0, π]
     FisheyeMapping mapping = FisheyeMapping::Equidistant;
     ClipRange clip{};

@@ -58,7 +58,7 @@ struct CompareArguments {
     std::string output;
     std::vector<std::string> integrators;
     std::vector<NamedOptions> variants;
-    RenderRequest common;  ///< of all variants
+    RenderRequest common;  ///< options that all variants share
     std::string command;   ///< this comparison's
     std::optional<double> seconds;
     bool by_wall = false;
@@ -180,7 +180,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
 
 /// A reference that is asked for: what can be known of it before anything is rendered.
 struct RequestedReference {
-    std::optional<ImageF> image{};            ///< of the file
+    std::optional<ImageF> image{};            ///< image of the file
     std::optional<ReferenceOrigin> origin{};  ///< of a file that says with which seeds it was rendered
     std::optional<Variant> variant{};         ///< that renders it
     std::vector<std::string> notes{};

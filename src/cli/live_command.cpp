@@ -26,7 +26,7 @@ struct LiveArguments {
     int port = 0;
     std::optional<TevAddress> tev;
     int threads = 0;
-    std::vector<GivenOption> given;  ///< what `render` understands, too
+    std::vector<GivenOption> given;  ///< options that `render` understands, too
 };
 
 ExitCode run_live(const LiveArguments& arguments) {

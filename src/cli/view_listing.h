@@ -12,7 +12,7 @@ namespace etendue {
 struct ViewedFile {
     std::string path;
     LayeredImage image;
-    std::string color_space;  ///< of the main layer, as `space_of_file` says it
+    std::string color_space;  ///< colour space of the main layer, as `space_of_file` says it
 };
 
 /// Lists the displays and views of `colors`, and the layers of `file` if there is a file, as lines of text.

@@ -34,7 +34,7 @@ struct ImagePair {
     /// False for floats (EXR, HDR): scene-linear.
     bool is_encoded = false;
     std::string color_space;            ///< colour space of both images; empty if neither file says it
-    std::vector<std::string> warnings;  ///< what was assumed, one sentence each
+    std::vector<std::string> warnings;  ///< assumptions, one sentence each
 };
 
 /// Reads both. The files must have RGB or RGBA channels (alpha is not compared), full images of the same size, pixels
@@ -46,7 +46,7 @@ struct ImagePair {
 /// R, G and B of a part of a file.
 struct SceneLinearImage {
     ImageF pixels;
-    std::vector<std::string> warnings;  ///< what was assumed, one sentence each
+    std::vector<std::string> warnings;  ///< assumptions, one sentence each
     bool is_converted = false;          ///< the file is in another colour space
 };
 

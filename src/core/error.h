@@ -25,7 +25,7 @@ enum class Severity { Note, Warning, Error };
 struct Problem {
     Severity severity = Severity::Error;
     SourceLocation where;
-    std::string message;  ///< what is wrong, and what to do or what is done about it
+    std::string message;  ///< the fault, and what to do or what is done about it
 
     /// `error: file#pointer: message`
     [[nodiscard]] std::string str() const;

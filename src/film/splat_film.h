@@ -21,7 +21,7 @@ namespace etendue {
 /// Light at a place on the film.
 struct Splat {
     Vec2f position;           ///< pixels of the full image, x right and y down from its corner
-    Rgb value;                ///< what the splat adds to the integral over the film of area 1
+    Rgb value;                ///< light that the splat adds to the integral over the film of area 1
     std::uint32_t layer = 0;  ///< layer of SplatFilm: the image, or one of the film's light layers
     float depth = 0.0f;       ///< metres along the viewing direction, of what it shows; of deep images only
 };

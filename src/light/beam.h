@@ -69,9 +69,9 @@ class Beam {
     float half_angle_ = 0.5f * kPi;
     float cos_outer_ = 0.0f;
     float sin_outer_ = 1.0f;
-    float cos_inner_ = 0.0f;  ///< of a spot
-    float tan_outer_ = 0.0f;  ///< of a panel
-    float scale_ = 1.0f;      ///< of a panel: 1 / (tan a - a)
+    float cos_inner_ = 0.0f;  ///< cosine of a spot's inner angle
+    float tan_outer_ = 0.0f;  ///< tangent of a panel's outer angle
+    float scale_ = 1.0f;      ///< scale of a panel: 1 / (tan a - a)
     float mean_factor_ = 1.0f;
 };
 

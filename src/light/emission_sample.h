@@ -16,14 +16,14 @@ struct SceneSphere {
 
 /// The random numbers of a ray, each in [0, 1)².
 struct EmissionNumbers {
-    Vec2f triangle;  ///< of a mesh light, which triangle; of a shape which face
+    Vec2f triangle;  ///< numbers that choose the triangle of a mesh light or the face of a shape
     Vec2f position;
     Vec2f direction;
 };
 
 struct EmissionSample {
     Vec3f position{0.0f};   ///< where light starts, metres
-    Vec3f offset{0.0f};     ///< what takes a ray along `direction` clear of the light's own surface
+    Vec3f offset{0.0f};     ///< offset that takes a ray along `direction` clear of the light's own surface
     Vec3f direction{0.0f};  ///< unit, away from the light
     /// Radiance along `direction`, W/(m² sr); of a point its intensity, W/sr; of a directional light its irradiance,
     /// W/m².

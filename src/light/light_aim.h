@@ -33,7 +33,7 @@ struct AimSphere {
 template <typename T>
 struct LightCone {
     Imath::Vec3<T> axis;  ///< unit
-    T cos_half;           ///< of the angle to the axis; -1 for all directions
+    T cos_half;           ///< cosine of the largest angle to the axis; -1 for all directions
 };
 
 /// Aims the rays of lights at spheres.

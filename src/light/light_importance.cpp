@@ -30,7 +30,7 @@ struct Sight {
     Wide squared;               ///< squared length of `to_node`, m²
     Wide inverse_distance;      ///< one over the length of `to_node`, 1/m
     Wide squared_radius;        ///< squared radius of the sphere around the box, m²
-    Wide cos_b, squared_sin_b;  ///< of half the angle that this sphere is seen under
+    Wide cos_b, squared_sin_b;  ///< cosine and squared sine of half the angle that this sphere is seen under
     WideMask is_inside;         ///< the point lies in the sphere
     Wide emitted;               ///< the cosine at the lamps, at most
 };

@@ -20,7 +20,7 @@ struct BasicLightNode {
     Imath::Vec3<T> axis{T(0.0f)};                ///< unit, of the cone around their normals
     T squared_spacing = 0.0f;                    ///< m², how near the nearest light is at least
     T intensity = 0.0f;                          ///< along the axis, in any unit; 0 where there is no node
-    T cos_o = 0.0f, sin_o = 0.0f, cos_e = 0.0f;  ///< of the angles theta_o and theta_e (light_tree.h)
+    T cos_o = 0.0f, sin_o = 0.0f, cos_e = 0.0f;  ///< cosines and sine of the angles theta_o and theta_e (light_tree.h)
     T two_sided = 0.0f;                          ///< 1, or 0
 };
 

@@ -108,7 +108,7 @@ class LightTree {
 
     /// A choice on its way through the tree.
     struct Walk {
-        double rest = 0.0;       ///< what is left of the random number, [0, 1)
+        double rest = 0.0;       ///< rest of the random number, [0, 1)
         double far = 0.0;        ///< probability of the lights at infinity
         double by_tree = 1.0;    ///< probability of the children so far
         std::uint32_t node = 0;  ///< where it is

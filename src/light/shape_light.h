@@ -67,7 +67,7 @@ class ShapeLight {
     struct Cone {
         Vec3d axis;            ///< unit, from the centre to the point
         double distance;       ///< from the centre, in radii
-        double one_minus_cos;  ///< of its half angle
+        double one_minus_cos;  ///< one minus the cosine of its half angle
         [[nodiscard]] float pdf() const;
     };
 

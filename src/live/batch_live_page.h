@@ -38,7 +38,7 @@ class BatchLivePage final : public BatchWatcher {
     mutable std::mutex mutex_;              ///< guards the next three
     std::string status_ = R"({"kind":"batch","title":"","phase":"load","images":[],"report":null})";
     bool is_ended_ = false;
-    std::vector<std::filesystem::path> pictures_;  ///< of each unit; empty where there is none
+    std::vector<std::filesystem::path> pictures_;  ///< picture of each unit; empty where there is none
     LiveServer server_;                            ///< last: it answers from the others
 };
 

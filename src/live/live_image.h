@@ -24,7 +24,7 @@ struct LiveImageFacts {
     std::vector<std::string> layers{};
     int spp = 0;  ///< 0 for a small image while the camera moves
     std::string integrator{};
-    std::string space{};  ///< of its numbers
+    std::string space{};  ///< colour space of its numbers
     DisplayView shown{};  ///< how it is shown by itself
 };
 
@@ -58,7 +58,7 @@ class LiveImage {
     ColorConfig colors_;
     mutable std::mutex mutex_;
     Held held_;
-    mutable std::string png_key_;  ///< what `png_` shows, and how
+    mutable std::string png_key_;  ///< layer and view that `png_` shows
     mutable std::string png_;      ///< the last picture that was asked for
 };
 

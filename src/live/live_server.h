@@ -15,7 +15,7 @@ struct LiveRequest {
     bool is_post = false;                                     ///< it may change something
     std::string path{};                                       ///< behind the secret, without a slash before it
     std::map<std::string, std::string, std::less<>> query{};  ///< parameters of the address, decoded
-    std::string body{};                                       ///< of a POST, at most `LiveServer::kMostBody` bytes
+    std::string body{};                                       ///< body of a POST, at most `LiveServer::kMostBody` bytes
 };
 
 /// Answers a request.

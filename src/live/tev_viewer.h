@@ -67,7 +67,7 @@ class TevViewer final : public RenderWatcher {
     std::string name_;
     std::deque<std::pair<std::string, std::shared_ptr<const OutputFrame>>> next_;  ///< one image of each name at most
     bool is_ended_ = false;
-    FileDescriptor socket_;             ///< of the thread, as is the next
+    FileDescriptor socket_;             ///< socket of the thread, which also has the next member
     std::set<std::string> sent_names_;  ///< names of images that tev has
     std::thread thread_;
 };

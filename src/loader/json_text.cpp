@@ -88,7 +88,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     }
 
     std::string_view text_;
-    std::vector<std::unordered_set<std::string>> keys_;  ///< of every open object; empty for arrays
+    std::vector<std::unordered_set<std::string>> keys_;  ///< keys of every open object; empty for arrays
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace etendue {
 
 /// Says how a scene is loaded where that is not as its render.json says.
 struct LoadOptions {
-    std::optional<int> frame{};  ///< of a sequence: shown at time_code (0 if none) + frame / fps
+    std::optional<int> frame{};  ///< frame of a sequence, shown at time_code (0 if none) + frame / fps
     /// Changes the settings, once they are read and before anything else is.
     std::function<void(RenderSettings&)> adjust{};
     /// The text of another render.json, merged into the scene's as RFC 7386 says: members replace members, objects are

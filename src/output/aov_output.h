@@ -16,9 +16,9 @@ enum class AovKind {
     Values,    ///< averaged numbers
     Nearest,   ///< numbers of the nearest sample
     Samples,   ///< samples of each pixel
-    Variance,  ///< of each pixel's mean
+    Variance,  ///< variance of each pixel's mean
     Rays,      ///< rays per sample
-    Mean,      ///< of the samples: the image, unless that is something else
+    Mean,      ///< mean of the samples, which is the image unless that is something else
     Matte,     ///< ids and coverages, two ranks for each four channels: a Cryptomatte
     Deep,      ///< no layer, but a file of its own
 };

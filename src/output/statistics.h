@@ -60,21 +60,21 @@ struct RenderStatistics {
     std::string scene;
     std::string integrator;
     std::string integrator_choice;    ///< a sentence that says why it was chosen; empty if it was asked for
-    std::optional<int> frame;         ///< of a sequence
+    std::optional<int> frame;         ///< number of this frame in its sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
     std::string settings_hash;        ///< equal for equal settings
     std::string settings;             ///< all that were rendered with, as a JSON object by JSON pointers
-    std::string requested_settings;  ///< those of them that were not the default and decide what files hold, unresolved
+    std::string requested_settings;  ///< settings that are not the default and decide the contents of files, unresolved
     std::string command;             ///< the command line; empty if there was none
     std::vector<InputFile> inputs;
     std::vector<std::string> layer_files;             ///< names of what lies beside the image and belongs to it
     std::map<std::string, std::uint64_t> file_sizes;  ///< bytes of the EXRs and the PNG, by their names
-    std::string light_units;        ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
+    std::string light_units;  ///< units of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
     std::optional<float> exposure;  ///< stops, of the PNG
     std::string exposure_reason;    ///< why it was chosen; empty if it was asked for
-    std::optional<double>
-        clipped_share;  ///< of the PNG's pixels, those that are as bright as it can show; none without
-    int width = 0;      ///< pixels rendered: the crop window's, or the image's
+    /// Holds the share of the PNG's pixels that are as bright as it can show; none without a PNG.
+    std::optional<double> clipped_share;
+    int width = 0;  ///< pixels rendered: the crop window's, or the image's
     int height = 0;
     int full_width = 0;  ///< pixels of the whole image
     int full_height = 0;
@@ -99,7 +99,7 @@ struct RenderStatistics {
     PhaseTime render;
     PhaseTime write;  ///< the images; this file is written after them
 
-    std::uint64_t peak_memory_bytes = 0;  ///< of the process
+    std::uint64_t peak_memory_bytes = 0;  ///< largest memory of the process, bytes
     std::uint64_t bvh_bytes = 0;
     double bvh_build_seconds = 0.0;
     std::uint64_t triangles = 0;  ///< stored ones; a mesh counts once however often it is placed
@@ -117,15 +117,15 @@ struct RenderStatistics {
     std::vector<DroppedSample> first_dropped;  ///< the first few of them
 
     float clamp_indirect = 0.0f;                 ///< limit of indirect contributions; 0 for none
-    std::optional<double> removed_share;         ///< of all light, what that took away; if it is known
-    int robust_buckets = 0;                      ///< of the median of means; 0 if the image is the mean
+    std::optional<double> removed_share;         ///< share of all light that this took away, if it is known
+    int robust_buckets = 0;                      ///< buckets of the median of means; 0 if the image is the mean
     int robust_filled = 0;                       ///< buckets that have samples in every pixel
-    std::optional<double> robust_removed_share;  ///< of the light that the mean has, what the median has not
+    std::optional<double> robust_removed_share;  ///< share of the mean's light that the median lacks
     std::vector<BrightContribution> brightest;   ///< the brightest first
 
     int threads = 0;
-    std::string isa;                               ///< instruction set of the ray kernels
-    std::string instruction_set;                   ///< of what else works per ray, as ETENDUE_ISA names it
+    std::string isa;              ///< instruction set of the ray kernels
+    std::string instruction_set;  ///< instruction set of Etendue's own code per ray, as ETENDUE_ISA names it
     std::map<std::string, std::string> libraries;  ///< versions by name
 };
 

@@ -24,11 +24,11 @@ struct ImageDescription {
     OutputFrame frame;            ///< without pixels, layers, window and counts, which the film knows
     std::vector<AovOutput> aovs;  ///< the layers that the film has
     AovLayout aov_layout = AovLayout::Layers;
-    BucketLayers buckets{};                      ///< of the median of means that the image is; none: it is the mean
-    float clamp_indirect = 0.0f;                 ///< the limit of indirect contributions; 0 for none
+    BucketLayers buckets{};       ///< layers of the median of means that the image is; none if it is the mean
+    float clamp_indirect = 0.0f;  ///< the limit of indirect contributions; 0 for none
     std::optional<std::size_t> removed_light{};  ///< the light layer of what that took away
     PixelDepth depth = PixelDepth::Half;  ///< depth in which the image is written, unless a merge is told another
-    RenderStatistics statistics;          ///< of what is rendered; when it is read back, without what rendering it cost
+    RenderStatistics statistics;          ///< statistics of the render; read back, without its cost
 };
 
 /// The description of an image of `scene`, whose names of colour spaces are resolved, with the layers of `plan`.

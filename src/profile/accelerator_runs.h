@@ -52,7 +52,7 @@ struct VisitMap {
 
 struct AcceleratorRuns {
     AcceleratorReport report{};
-    std::vector<VisitMap> visits{};  ///< of each structure that has nodes
+    std::vector<VisitMap> visits{};  ///< map of visits for each structure that has nodes
     bool interrupted = false;
 };
 

@@ -13,8 +13,8 @@ namespace etendue {
 
 /// Names of what surfaces belong to.
 struct SceneHitNames {
-    std::vector<std::string> objects{};                ///< of each instance
-    std::vector<std::string> materials{};              ///< of each material
+    std::vector<std::string> objects{};                ///< name of each instance
+    std::vector<std::string> materials{};              ///< name of each material
     std::vector<std::vector<std::string>> textures{};  ///< images that each material names, once each
 };
 

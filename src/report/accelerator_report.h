@@ -11,8 +11,8 @@ namespace etendue {
 /// Holds what a structure did with rays. Embree does not tell what it visits, which then is NaN.
 struct TracedRays {
     std::uint64_t rays = 0;
-    double rays_per_second = 0.0;                                 ///< of one thread that traces them one by one
-    double nodes = std::numeric_limits<double>::quiet_NaN();      ///< boxes or cells that a ray goes into, the mean
+    double rays_per_second = 0.0;                             ///< rays that one thread traces in a second, one by one
+    double nodes = std::numeric_limits<double>::quiet_NaN();  ///< boxes or cells that a ray goes into, the mean
     double triangles = std::numeric_limits<double>::quiet_NaN();  ///< triangles that a ray is tested against, the mean
 };
 

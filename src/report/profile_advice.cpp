@@ -20,7 +20,7 @@ constexpr double kMuchTime = 0.1;
 constexpr double kMuchWaiting = 0.15;
 
 struct Advice {
-    double share = 0.0;  ///< of the time
+    double share = 0.0;  ///< share of the time
     std::string text{};
 };
 

@@ -32,7 +32,7 @@ namespace etendue {
 struct TileCost {
     PixelRect rect{};
     double cpu_seconds_per_sample = 0.0;
-    double cpu_seconds = 0.0;  ///< of all samples
+    double cpu_seconds = 0.0;  ///< CPU seconds of all samples
     double share = 0.0;        ///< share of the CPU time of all tiles, [0, 1]
 };
 

@@ -34,10 +34,10 @@ inline constexpr std::array<std::pair<std::string_view, AovLayout>, 3> kAovLayou
 }};
 
 struct AovDesc {
-    std::string name;              ///< of the layer: letters, digits, '_' and '-'
+    std::string name;              ///< name of the layer: letters, digits, '_' and '-'
     std::string source;            ///< one that the program knows by name, "lpe:EXPRESSION" or "light:NAME"
     std::optional<bool> is_float;  ///< 32-bit or 16-bit floats; none for what suits the source
-    std::optional<int> ranks{};    ///< of mattes: ids that are kept of a pixel
+    std::optional<int> ranks{};    ///< ids that a matte keeps of a pixel
     SourceLocation location{};
 
     friend bool operator==(const AovDesc& a, const AovDesc& b) {

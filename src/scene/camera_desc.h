@@ -39,7 +39,7 @@ struct ApertureDesc {
     static constexpr int kMostBlades = 64;
 
     int blades = 0;         ///< 0 for a round one, or [kLeastBlades, kMostBlades]
-    float rotation = 0.0f;  ///< of the blades, radians
+    float rotation = 0.0f;  ///< angle by which the blades are turned, radians
     float ratio = 1.0f;     ///< height over width, > 0; the height is that of a round one
 };
 
@@ -63,8 +63,8 @@ struct CameraDesc {
     float aspect_ratio = 0.0f;
     /// Moves the view to the right and up, without turning the camera: shares of the view's longer side.
     Vec2f shift{0.0f, 0.0f};
-    ClipDesc clip;                ///< what is shown
-    ClipDesc file_clip;           ///< what the scene file would have shown; nobody but render.json looks at it
+    ClipDesc clip;                ///< distances between which things are shown
+    ClipDesc file_clip;           ///< distances that the scene file asks for; only render.json looks at them
     float lens_radius = 0.0f;     ///< metres; 0 for a pinhole
     ApertureDesc aperture;        ///< used when lens_radius > 0
     float focus_distance = 1.0f;  ///< metres along the optical axis, > 0; used when lens_radius > 0

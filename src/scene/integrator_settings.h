@@ -46,7 +46,7 @@ inline constexpr std::string_view kMergesName = "merging";
 /// Says which vertices of both subpaths merge.
 enum class MergeAt : std::uint8_t {
     Nothing,        ///< none: bidirectional path tracing without merging
-    BetweenDeltas,  ///< those which both subpaths reach by a delta: no connection finds such paths
+    BetweenDeltas,  ///< vertices that both subpaths reach by a delta, whose paths no connection finds
     Everywhere,     ///< all that scatter by more than deltas: the algorithm as it was published
 };
 

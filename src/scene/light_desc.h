@@ -74,7 +74,7 @@ struct CubeMapDesc {
 struct EnvironmentDesc {
     bool enabled = false;
     std::filesystem::path image;      ///< EXR or HDR; empty for the cube map, or for a constant colour without one
-    std::optional<CubeMapDesc> cube;  ///< of the scene file
+    std::optional<CubeMapDesc> cube;  ///< cube map of the scene file
     Rgb color{1.0f};                  ///< linear Rec.709; radiance, or the image's tint
     float scale = 1.0f;               ///< multiplies the radiance, >= 0
     float rotation = 0.0f;            ///< radians about +Y, counter-clockwise seen from above

@@ -48,16 +48,16 @@ struct DielectricDesc {
 /// A matte reflector with a constant albedo.
 struct DiffuseDesc {
     Rgb albedo{0.5f};        ///< linear Rec.709, each channel in [0, 1]
-    float roughness = 0.0f;  ///< of the facets, [0, 1]; 0 is Lambert's surface
+    float roughness = 0.0f;  ///< roughness of the facets, [0, 1]; 0 is Lambert's surface
 };
 
 /// A closed translucent body in which light walks at random: skin, wax, milk, marble.
 struct SubsurfaceDesc {
-    Rgb albedo{0.8f};                    ///< what the body reflects when it is large, linear Rec.709, [0, 1]
+    Rgb albedo{0.8f};                    ///< colour that a large body reflects, linear Rec.709, [0, 1]
     Rgb radius{0.01f, 0.005f, 0.0025f};  ///< mean free path per channel of the working space, metres, > 0
     float anisotropy = 0.0f;             ///< Henyey and Greenstein's g, (-1, 1)
-    float ior = 1.4f;                    ///< of the reflecting surface, [1, 3]
-    float roughness = 0.5f;              ///< of the reflecting surface, [0, 1]
+    float ior = 1.4f;                    ///< index of the reflecting surface, [1, 3]
+    float roughness = 0.5f;              ///< roughness of the reflecting surface, [0, 1]
     int priority = 0;                    ///< as of VolumeDesc
 };
 
@@ -83,7 +83,7 @@ struct SheenDesc {
 struct IridescenceDesc {
     float factor = 0.0f;                  ///< [0, 1]
     TextureRef texture;                   ///< data: R
-    float ior = 1.3f;                     ///< of the film, >= 1
+    float ior = 1.3f;                     ///< index of the film, >= 1
     float thickness_minimum_nm = 100.0f;  ///< nanometres, where the texture is 0
     float thickness_maximum_nm = 400.0f;  ///< nanometres, where it is 1 or there is none
     TextureRef thickness_texture;         ///< data: G
@@ -136,10 +136,10 @@ struct MaterialDesc {
     float normal_scale = 1.0f;
 
     Rgb emissive{0.0f};  ///< linear Rec.709, [0, 1]
-    float emissive_strength =
-        1.0f;  ///< KHR_materials_emissive_strength, >= 0; radiance = emissive · strength, W/(m² sr)
+    /// Holds KHR_materials_emissive_strength, >= 0; radiance = emissive · strength, W/(m² sr).
+    float emissive_strength = 1.0f;
     TextureRef emissive_texture;  ///< sRGB
-    BeamDesc beam;                ///< of one-sided materials
+    BeamDesc beam;                ///< beam that one-sided materials shine in
     bool visible_to_camera = true;
     bool catches_shadows = false;  ///< the camera sees of it how much light is taken from it, as alpha, and no more
 

@@ -85,11 +85,11 @@ struct FilmSettings {
 
 struct ColorSettings {
     std::string working_space;      ///< empty for the config's scene_linear role
-    std::string display;            ///< of the preview image; empty for the config's default
-    std::string view;               ///< of the preview image; empty for the display's default
-    std::string look;               ///< of the preview image, in place of the view's own; empty for those
+    std::string display;            ///< display of the preview image; empty for the config's default
+    std::string view;               ///< view of the preview image; empty for the display's default
+    std::string look;               ///< look of the preview image, in place of the view's own; empty for the view's
     std::optional<float> exposure;  ///< stops, applied to the preview image only; none for what the image asks for
-    std::string output_space;       ///< of the EXR; empty for the working space
+    std::string output_space;       ///< colour space of the EXR; empty for the working space
     /// The EXR follows SMPTE ST 2065-4: ACES2065-1, which `output_space` is then or is empty.
     bool aces_container = false;
 };
@@ -127,7 +127,7 @@ inline constexpr std::string_view kNoAnimation = "none";
 /// Places a camera, in the world that the scene's file describes.
 struct CameraPlace {
     Vec3d eye{0.0};
-    Vec3d target{0.0, 0.0, -1.0};  ///< what it looks at, elsewhere than `eye`
+    Vec3d target{0.0, 0.0, -1.0};  ///< point that the camera looks at, elsewhere than `eye`
     Vec3d up{0.0, 1.0, 0.0};       ///< which way is up in the image, not along the view
 };
 
@@ -136,15 +136,16 @@ struct RenderSettings {
     SamplerType sampler = SamplerType::Sobol;
     int spp = 64;  ///< samples per pixel, [1, 2^24]
     std::uint32_t seed = 0;
-    double time_limit = 0.0;      ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
-    double relative_error = 0.0;  ///< of the image; 0 for none. Rendering stops after the pass that reaches it.
+    double time_limit = 0.0;  ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
+    /// Holds the error of the image at which rendering stops, after the pass that reaches it; 0 for none.
+    double relative_error = 0.0;
     float clamp_indirect = 0.0f;  ///< most of an indirect contribution, in units of the image; 0 for no limit
-    int robust_buckets = 0;       ///< of the median of means; 0 for the mean
+    int robust_buckets = 0;       ///< buckets of the median of means; 0 for the mean
     int brightest = 8;            ///< how many of the brightest contributions to list, [0, kMostBrightest]
     bool adaptive = true;         ///< with a relative error: pixels get samples as they need them
     int min_spp = 48;             ///< samples that every pixel gets before, [1, 2^24]
     std::string camera;           ///< name of the camera or of its node; empty for the first
-    std::optional<CameraPlace> camera_place;  ///< of that camera, in place of its node's; it then stands still
+    std::optional<CameraPlace> camera_place;  ///< place of that camera, which then stands still, instead of its node's
     std::string scene_name;                   ///< which of the scene file's scenes; empty for the file's default
     std::string variant;  ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is
@@ -157,7 +158,7 @@ struct RenderSettings {
     LightUnits light_units = LightUnits::Photometric;
     std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
     MissingTextures missing_textures = MissingTextures::Warn;
-    AcceleratorKind accelerator = AcceleratorKind::Embree;  ///< what finds the surfaces that rays meet
+    AcceleratorKind accelerator = AcceleratorKind::Embree;  ///< structure that finds the surfaces that rays meet
     bool cull_backfaces = false;  ///< single-sided surfaces are invisible from behind, but for those of bodies
     std::optional<bool> studio;   ///< the studio is the environment; none for where nothing else emits light
     bool ground = true;           ///< the studio has a ground
@@ -167,7 +168,7 @@ struct RenderSettings {
     MistSettings mist;
     ColorSettings color;
     MetadataSettings metadata;
-    SourceLocation location;                     ///< of render.json
+    SourceLocation location;                     ///< place of render.json
     std::map<std::string, std::string> options;  ///< JSON pointers of what the command line set, and with which option
 
     /// The moment of the animation that is shown, seconds; none for the scene at rest.

@@ -24,13 +24,13 @@ struct ExtrasDesc {
     enum class Of { Material, Light, Camera, Node };
 
     Of of = Of::Node;
-    std::string name;  ///< of the thing
+    std::string name;  ///< name of the thing
     std::string json;  ///< text of a JSON object
     SourceLocation location;
 };
 
 struct SceneDesc {
-    std::string name;                 ///< of the scene directory or file, without extension
+    std::string name;                 ///< name of the scene directory or file, without extension
     std::filesystem::path directory;  ///< nothing outside of it is read, but for files the command line names
     std::filesystem::path file;       ///< the scene file
 

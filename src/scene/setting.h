@@ -99,7 +99,7 @@ enum class Decides {
     Sums,      ///< pixels: which sums are kept of the samples
     Amount,    ///< which pixels get how many samples
     Display,   ///< how files show the sums
-    Report,    ///< what is told of the render
+    Report,    ///< the report of the render
     Schedule,  ///< how the work is done, and nothing that a file holds
 };
 
@@ -127,7 +127,7 @@ struct Setting {
     Decides decides;
     std::string_view needs{};         ///< pointer of the setting without which it has no effect
     std::string_view unit{};          ///< "pixels"
-    std::string_view default_text{};  ///< what is meant by no value
+    std::string_view default_text{};  ///< words for a setting without a value
     std::string_view help;            ///< a sentence without its full stop; names stand in backticks
     std::string_view page{};          ///< below docs/, for more: "adaptive.md#sampling"
     SettingPlace place;

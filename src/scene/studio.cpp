@@ -98,7 +98,7 @@ float lowest_height(const SceneDesc& scene) {
     return lowest;
 }
 
-constexpr std::size_t kCorners = 64;  ///< of each ring of the ground
+constexpr std::size_t kCorners = 64;  ///< corners of each ring of the ground
 
 /// Adds the rings of a disk of these `radii` about `centre`, each with its alpha; the first radius may be 0.
 PrimitiveDesc make_rings(const Vec3f& centre, const std::vector<std::array<float, 2>>& radii_and_alphas) {

@@ -37,7 +37,7 @@ struct TextureDesc {
     TextureWrap wrap_u = TextureWrap::Repeat;
     TextureWrap wrap_v = TextureWrap::Repeat;
     TextureFilter filter = TextureFilter::Linear;      ///< the sampler's magnification filter
-    TextureFilter min_filter = TextureFilter::Linear;  ///< the same where it is minified, within a level
+    TextureFilter min_filter = TextureFilter::Linear;  ///< filter where the texture is minified, within a level
     TextureMipFilter mip_filter = TextureMipFilter::Linear;
     SourceLocation location;
 };

@@ -9,7 +9,7 @@ enum class ExitCode : int {
     DiffFailed = 1,    ///< images were compared: a measure is above its limit, or pixels are not finite
     UsageError = 2,
     InvalidScene = 3,   ///< invalid scene or settings, or images that cannot be read or compared
-    Unfinished = 4,     ///< of images that were submitted, some still wait or run, and none has failed
+    Unfinished = 4,     ///< some submitted images still wait or run, and none has failed
     Interrupted = 130,  ///< SIGINT
     Terminated = 143,   ///< SIGTERM
 };

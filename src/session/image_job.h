@@ -18,8 +18,8 @@ namespace etendue {
 struct ImageJob {
     std::filesystem::path scene;
     std::filesystem::path output;  ///< the EXR
-    std::string name;              ///< what tables and progress call it
-    std::optional<int> frame;      ///< of a sequence
+    std::string name;              ///< name in tables and progress
+    std::optional<int> frame;      ///< frame of a sequence
     /// Names the variant of the scene's materials; none for the variant that overrides or render.json ask for.
     std::optional<std::string> variant{};
     /// Names the camera; none for the camera that overrides or render.json ask for.

@@ -26,12 +26,12 @@ struct SceneRenderRequest {
     std::optional<int> first_frame{};  ///< number of the first frame of the image's sequence, in which `auto` chooses
     StrategiesRequest strategies{};
     SettingsOverrides overrides{};
-    std::optional<SampleRange> samples{};     ///< of a part; without it, all
+    std::optional<SampleRange> samples{};     ///< samples of a part; all without it
     double checkpoint_minutes = 0.0;          ///< between checkpoints; 0 for none but when interrupted
     bool resume = false;                      ///< go on with the checkpoint, if there is one, or with the part
     std::optional<double> keep_sums_after{};  ///< seconds that a render takes whose sums are kept; none for never
     bool force = false;            ///< render a part again that was rendered before; a checkpoint is gone on with
-    int progress_descriptor = -1;  ///< of a pipe that progress is written to as JSON; -1 for a bar on stderr
+    int progress_descriptor = -1;  ///< pipe that progress is written to as JSON; -1 for a bar on stderr
     bool quiet = false;
     std::string title{};    ///< before the progress bar
     std::string command{};  ///< the command line, to be told with the image
@@ -47,7 +47,7 @@ class LostRender : public std::exception {
 };
 
 struct SceneRenderResult {
-    RenderStatistics statistics{};  ///< of a part that was there, those of its own render
+    RenderStatistics statistics{};  ///< statistics; for a part that was there, those of its own render
     std::filesystem::path output{};
     bool interrupted = false;
     bool was_there = false;  ///< the part had been rendered before

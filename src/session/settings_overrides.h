@@ -39,7 +39,7 @@ struct SettingsOverrides {
     bool deep = false;
     std::optional<std::string> environment;     ///< a file, or one of the words above
     std::vector<std::filesystem::path> assets;  ///< as in LoadOptions
-    std::optional<int> frame;                   ///< of the sequence, that is shown
+    std::optional<int> frame;                   ///< frame of the sequence that is shown
     PixelDepth depth = PixelDepth::Half;
     bool png = true;  ///< a preview is written beside the image
 

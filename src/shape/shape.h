@@ -19,8 +19,9 @@ namespace etendue {
 
 /// Names a place on the surface of a shape.
 struct ShapePlace {
-    std::uint32_t face = 0;  ///< of a cylinder: 0 the side, 1 the end towards +y, 2 that towards -y; else 0
-    Vec2f at{0.0f, 0.0f};    ///< [-1, 1]², but for a cylinder's side, where the first is in [-2, 2]
+    /// Tells the part of a cylinder: 0 its side, 1 its end towards +y, 2 its end towards -y; 0 for other shapes.
+    std::uint32_t face = 0;
+    Vec2f at{0.0f, 0.0f};  ///< [-1, 1]², but for a cylinder's side, where the first is in [-2, 2]
 };
 
 // Hits and samples of lamps keep a place where those of meshes keep a triangle and barycentric coordinates. The two
@@ -48,7 +49,7 @@ struct ShapePoint {
 struct ShapeCrossing {
     double t = 0.0;  ///< in lengths of the line's direction
     ShapePlace place;
-    Vec3f normal{0.0f};         ///< of the front, of any length
+    Vec3f normal{0.0f};         ///< normal of the front, of any length
     bool is_from_back = false;  ///< the line meets the back
 };
 

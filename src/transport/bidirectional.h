@@ -25,7 +25,7 @@ struct BidirectionalSetup {
 /// Holds the light that a pair of subpaths finds.
 struct BidirectionalLight {
     Rgb radiance;                    ///< W/(m² sr), radiance of the sample
-    std::vector<FilmLight> on_film;  ///< what the light subpath alone brings; nothing black
+    std::vector<FilmLight> on_film;  ///< light that the light subpath alone brings; nothing black
 };
 
 /// Returns the light that `sample` finds by all strategies, weighed by the heuristic of `settings`.

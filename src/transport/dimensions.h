@@ -57,7 +57,7 @@ enum class SubpathDimension : std::uint32_t {
     Choices,  ///< x: which lobe, y: whether the path ends
     Medium,
     Alpha,
-    LightChoice,  ///< of connections; of those to the camera, the lens
+    LightChoice,  ///< the light of a connection; for one to the camera, the point of the lens
     LightTriangle,
     LightDirection,
     Count

@@ -59,7 +59,7 @@ class CoarseDirection {
 struct Photon {
     Vec3f position{0.0f};          ///< metres
     Vec3f direction{0.0f};         ///< unit, back to the vertex before
-    Rgb throughput{};              ///< of the subpath, over the cosine, without the weight of its wavelength
+    Rgb throughput{};              ///< throughput of the subpath, over the cosine, without the weight of its wavelength
     float a = 0.0f;                ///< see SubpathDensities
     float b = 0.0f;                ///< see SubpathDensities
     std::uint32_t first_word = 0;  ///< see WordRange

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kCatcherSamples = 16;
 
 /// Holds what a sample of a pixel finds of the shadow on a catcher.
 struct CaughtShadow {
-    float share = 0.0f;      ///< of the direct light that surfaces take, in [0, 1]
+    float share = 0.0f;      ///< share of the direct light that surfaces take, in [0, 1]
     std::uint32_t rays = 0;  ///< shadow rays that were traced
 };
 

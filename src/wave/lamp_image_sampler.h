@@ -19,7 +19,7 @@ namespace etendue {
 /// Holds the light of a lamp that a point of the film shows by way of deltas.
 struct LampSeen {
     Rgb light;                       ///< W/(m² sr)
-    ExpressionMask expressions = 0;  ///< of which it is a part
+    ExpressionMask expressions = 0;  ///< expressions that the light is a part of
     Vec3f first_position{0.0f};      ///< metres, of the surface that the camera ray has met
     float time = 0.0f;               ///< of the camera ray, [0, 1] while the shutter is open
 };

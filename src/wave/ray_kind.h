@@ -13,7 +13,7 @@ enum class RayKind : std::uint8_t {
     Primary,        ///< from the camera, the first of an eye path
     Bounce,         ///< the others of an eye path
     Shadow,         ///< to a sampled light
-    LightSubpath,   ///< of a path from a light
+    LightSubpath,   ///< a ray of a path from a light
     Connection,     ///< between a vertex of an eye path and one of a light path
     LightToCamera,  ///< from a light path to the lens
     LampInView,     ///< from the camera, where pixels beside that of the sample ask for lamps

@@ -35,7 +35,7 @@ struct TileJob {
     std::uint32_t seed = 0;
     SampleSequence sequence = SampleSequence::Sobol;
     const PixelFilter* filter = nullptr;  ///< not null
-    const AovSet* aovs = nullptr;         ///< what the tile's layers hold; null if it has none
+    const AovSet* aovs = nullptr;         ///< contents of the tile's layers; null if it has none
     /// Most that the largest component of an indirect contribution may have, as a sample of a pixel has it; hues are
     /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
     /// what lights it without another bounce. All other light is indirect.

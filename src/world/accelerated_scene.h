@@ -19,7 +19,7 @@ struct HitAgreement {
     std::uint64_t rays = 0;
     std::uint64_t ties = 0;      ///< rays that met different triangles, as far away but for rounding
     std::uint64_t differ = 0;    ///< rays that differ more than that
-    double largest_error = 0.0;  ///< of distances to one and the same triangle, relative to the scene
+    double largest_error = 0.0;  ///< largest difference of two distances to one triangle, relative to the scene
 
     void add(const HitAgreement& other);
 };
@@ -79,7 +79,7 @@ class AcceleratedScene {
 
     const WorldData& data_;
     std::vector<Triangle> triangles_;
-    std::vector<Identity> identities_;  ///< of each triangle
+    std::vector<Identity> identities_;  ///< identity of each triangle
     std::vector<PlacedShape> shapes_;
     bool has_filters_ = false;  ///< some surface lets some rays pass
     std::unique_ptr<const Accelerator> accelerator_;

@@ -91,7 +91,7 @@ struct ContactSlot {
 
     float reach = 0.0f;           ///< metres within which others lie; 0 if none do
     std::vector<Bounds> regions;  ///< boxes in which what the surface touches lies
-    bool is_anywhere = false;     ///< what it touches may lie in any place, as where things move
+    bool is_anywhere = false;     ///< whether touching surfaces may lie in any place, as where things move
 
     /// Adds a place; boxes that are more than there may be become one.
     void add(const Bounds& place);
@@ -126,7 +126,7 @@ class Contacts {
 
   private:
     std::vector<ContactSlot> slots_;
-    std::unique_ptr<EmbreeScene> bvh_;  ///< of surfaces with a reach
+    std::unique_ptr<EmbreeScene> bvh_;  ///< hierarchy of the surfaces that have a reach
 };
 
 /// The surface of a contact that a ray along `direction` with these `ends` meets; the first if it passes all.

@@ -21,7 +21,7 @@ class EmbreeEntries {
     /// Says what one top-level entry of Embree stands for.
     struct Entry {
         std::uint32_t instance;
-        std::uint32_t geometry;  ///< of baked geometry itself, or the first of an instanced mesh
+        std::uint32_t geometry;  ///< number of the baked geometry, or of the first one of an instanced mesh
     };
 
     /// Appends the entry that Embree numbers next; `slot` may be null, and has to stay where it is.

@@ -148,7 +148,7 @@ bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
 struct GeometryMaker {
     RTCDevice device;
     std::span<const Geometry> geometries;
-    std::span<const HitFilter> filters;  ///< of the geometries
+    std::span<const HitFilter> filters;  ///< filters of the geometries
     bool collects;                       ///< for `EmbreeScene::collect`
     std::deque<std::vector<std::array<std::uint32_t, 3>>>& collected_indices;
     std::vector<std::unique_ptr<const EmbreeShape>>& shapes;

@@ -21,13 +21,13 @@ struct Emission {
     Rgb weight;  ///< radiance and cosine over the densities of origin, direction and choice
     EmissionSample sample;
     std::uint32_t light = kNone;
-    float probability = 0;  ///< of choosing this light
+    float probability = 0;  ///< probability of choosing this light
 };
 
 /// Describes a ray that leaves a light, to ask how densely it is sampled.
 struct EmittedRay {
     std::uint32_t light = kNone;
-    std::uint32_t triangle = 0;  ///< of a mesh light
+    std::uint32_t triangle = 0;  ///< triangle of a mesh light
     Vec3f point{0.0f};           ///< where it leaves the light; for one at infinity, any point of the ray
     Vec3f direction{0.0f};       ///< unit, away from the light
     float cos_light = 1.0f;      ///< between the direction and the normal of the light's front

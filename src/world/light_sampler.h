@@ -33,7 +33,7 @@ struct ChosenLight {
 /// Holds the random numbers that a light sample is made from, each in [0, 1)².
 struct LightNumbers {
     Vec2f light;      ///< which light
-    Vec2f triangle;   ///< of a mesh light, which triangle
+    Vec2f triangle;   ///< numbers that choose the triangle of a mesh light
     Vec2f direction;  ///< where on it, or from where
 };
 

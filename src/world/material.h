@@ -99,7 +99,7 @@ struct Material {
     TextureSlot emission_texture;
     bool emits = false;
     bool emits_both_sides = false;
-    Beam beam;  ///< of emission
+    Beam beam;  ///< beam of the emission
 
     bool visible_to_camera = true;  ///< false: what the camera sees straight or through panes goes on behind it
     bool catches_shadows = false;   ///< the camera sees straight what share of its light is taken from it

@@ -29,7 +29,8 @@ namespace etendue {
 /// A rough surface that is made rougher, in the axes of what that makes of it.
 struct RoughnessAxes {
     Vec2f direction;       ///< unit, in which it is roughest
-    Vec2f added_variance;  ///< of slopes along `direction` and across it, >= 0: what widens the alphas along x and y
+    Vec2f added_variance;  ///< variance of slopes along `direction` and across it, >= 0, which widens the alphas along
+                           ///< x and y
 };
 
 /// Returns the axes for the alphas `alpha`, of which that along x is no less, and slopes that vary by `covariance`

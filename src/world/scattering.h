@@ -39,8 +39,8 @@ class Scattering {
 
     struct TwoWayValue {
         Rgb f_cos;
-        float pdf_solid_angle = 0.0f;          ///< of wi, given wo
-        float reverse_pdf_solid_angle = 0.0f;  ///< of wo, given wi, for a walk from the other end
+        float pdf_solid_angle = 0.0f;          ///< density of wi, given wo, 1/sr
+        float reverse_pdf_solid_angle = 0.0f;  ///< density of wo, given wi, for a walk from the other end, 1/sr
     };
     /// `evaluate` and `reverse_pdf_solid_angle` in one; all zero where f is.
     [[nodiscard]] TwoWayValue evaluate_both_ways(const Vec3f& wi, TransportMode mode) const;

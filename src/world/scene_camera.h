@@ -43,7 +43,7 @@ class SceneCamera {
 
     const WorldData& data_;
     const SceneTraits& traits_;
-    std::vector<Bounds> lamp_bounds_;  ///< of surfaces that emit, while they stay where they are
+    std::vector<Bounds> lamp_bounds_;  ///< bounds of the surfaces that emit and stay where they are
 };
 
 }  // namespace etendue

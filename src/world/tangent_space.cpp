@@ -218,8 +218,8 @@ class TangentGenerator {
     std::vector<TriangleFrame> frames_;
     std::vector<std::uint32_t> group_of_corner_;
     std::vector<std::uint32_t> group_of_vertex_;  ///< by welded vertex, one of its groups
-    std::vector<Vec3f> sums_;                     ///< of each group
-    std::vector<bool> is_mirrored_;               ///< of each group
+    std::vector<Vec3f> sums_;                     ///< sum for each group
+    std::vector<bool> is_mirrored_;               ///< sum for each group
     std::vector<std::uint32_t> pending_;          ///< triangles to look at while a group grows
 };
 

@@ -35,7 +35,7 @@ struct WorldStatistics {
     std::size_t geometry_bytes = 0;
     std::size_t instance_bytes = 0;  ///< where meshes are placed, how they move, and what bodies they bound
     std::size_t material_bytes = 0;
-    std::size_t light_bytes = 0;  ///< of lights, the image of an environment included, and of the choice between them
+    std::size_t light_bytes = 0;  ///< bytes of lights, of an environment's image and of the choice between lights
     std::size_t textures = 0;
     std::size_t missing_textures = 0;          ///< images that could not be read, which materials do without
     std::size_t texture_bytes = 0;             ///< held in memory: all of them, or tiles in the cache

@@ -41,13 +41,13 @@ struct Emitter {
 struct WorldData {
     std::vector<Geometry> geometries;
     std::vector<Instance> instances;
-    std::vector<TransformMotion> motions;  ///< of the instances that move
+    std::vector<TransformMotion> motions;  ///< motion of each instance that moves
     std::vector<Material> materials;
     std::unique_ptr<TextureCache> texture_cache;  ///< null if all textures are resident
     std::vector<Texture> textures;
     std::size_t missing_textures = 0;  ///< images that materials do without
     std::vector<Light> lights;
-    std::vector<Emitter> emitter_of_light;     ///< what each light is
+    std::vector<Emitter> emitter_of_light;     ///< emitter of each light
     std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled
     bool has_unsampled_emitters = false;       ///< some surface that emits is none of `lights`
     std::uint32_t environment = kNone;         ///< index into `lights`
@@ -59,7 +59,7 @@ struct WorldData {
     ColorMatrix from_rec709;        ///< linear Rec.709 to the working space
     XyzToWorking xyz_to_working{};
     SpectralResponse response;
-    std::vector<Filling> fillings;               ///< of materials
+    std::vector<Filling> fillings;               ///< filling of each material
     std::vector<std::uint32_t> filling_of_body;  ///< bodies by precedence, the first first
     std::vector<std::uint32_t> body_of_slot;     ///< body of (instance, geometry), or kNone; empty without bodies
     Bounds bounds;
@@ -69,10 +69,10 @@ struct WorldData {
     std::unique_ptr<EmbreeScene> bvh;
     std::unique_ptr<EmbreeScene> panes;  ///< for `collect`; null if there are none
     std::unique_ptr<Contacts> contacts;  ///< null if no surfaces touch for which that matters
-    std::vector<std::uint8_t>
-        shares_place_of_slot;  ///< 1 for emitters that touch other emitters; empty without contacts
-    std::vector<std::vector<Vec3f>>
-        planes_of_light;  ///< of each lamp, what takes a ray clear of surfaces that it lies in
+    /// Holds 1 for emitters that touch other emitters; empty without contacts.
+    std::vector<std::uint8_t> shares_place_of_slot;
+    /// Holds planes that take a ray clear of surfaces in which a lamp lies, for each lamp.
+    std::vector<std::vector<Vec3f>> planes_of_light;
     std::vector<CompilePhase> compile_phases;
 
     WorldData();

@@ -70,8 +70,8 @@ struct ToLightLanes : ConnectionColumns {
     LightFrontColumns front;
     Vec2Columns u;  ///< for the point on the triangle
     RgbColumns radiance;
-    Column probability;   ///< of choosing the light, for a sample
-    Column choice_ratio;  ///< of light and triangle being chosen for an emission, over that for a sample
+    Column probability;   ///< probability of choosing the light for a sample
+    Column choice_ratio;  ///< probability of choosing light and triangle for an emission, over that for a sample
 
     Vec3Columns wi;  ///< to the sample
 

@@ -30,7 +30,7 @@ struct ShadedPath {
 /// Holds what else paths have that are shaded one by one: some 700 bytes, apart from what stays in the first-level
 /// cache.
 struct SingleShading {
-    SurfacePoint point;  ///< of a plain surface its material only, where words are followed
+    SurfacePoint point;  ///< surface point; for a plain surface its material only, where words are followed
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< wavelength with which the path goes on, and its weight
     bool chooses_wavelength = false;

@@ -99,7 +99,7 @@ class PathLight {
     WavePaths& paths_;
     PathBlock& block_;
     std::array<LightSample, kBlockLanes> environment_samples_{};  ///< light samples of the environment
-    std::array<LightReceiver, kBlockLanes> receivers_;            ///< what lights are chosen for, side by side
+    std::array<LightReceiver, kBlockLanes> receivers_;            ///< vertices that lights are chosen for, side by side
     std::vector<ExpressionShare> shares_;                         ///< shares of expressions in the contribution at hand
     ShadowRayQueue shadow_rays_{RayKind::Shadow};
     LampsInView lamps_;

@@ -100,7 +100,7 @@ class AccessorReader {
     ProblemList& problems_;
     DecodeBudget budget_;
     bool is_exhausted_ = false;               ///< more was asked for than may be decoded, and that was reported
-    std::set<std::size_t> reported_buffers_;  ///< of those that are absent
+    std::set<std::size_t> reported_buffers_;  ///< absent buffers that were reported
     bool is_quantized_;                       ///< the file uses KHR_mesh_quantization
 };
 

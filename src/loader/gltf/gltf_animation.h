@@ -19,7 +19,7 @@ struct NodePose {
     std::optional<std::array<double, 3>> translation;
     std::optional<std::array<double, 4>> rotation;  ///< x, y, z, w; not normalised
     std::optional<std::array<double, 3>> scale;
-    std::vector<double> weights;  ///< of morph targets; empty if not said
+    std::vector<double> weights;  ///< weights of morph targets; empty if not said
 };
 
 /// Poses by node index.

@@ -28,7 +28,7 @@ struct PrimitiveDeformation {
 
 /// One for each primitive of a mesh.
 struct MeshDeformation {
-    std::vector<double> default_weights;  ///< of the morph targets
+    std::vector<double> default_weights;  ///< default weights of the morph targets
     std::vector<PrimitiveDeformation> primitives;
 
     [[nodiscard]] bool is_skinned() const;

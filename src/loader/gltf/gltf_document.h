@@ -54,7 +54,7 @@ struct GltfSkin {
 /// Holds the text that the extras of one thing have under the name "etendue".
 struct GltfExtras {
     ExtrasDesc::Of of = ExtrasDesc::Of::Node;
-    std::size_t index = 0;  ///< of the thing among those of its kind
+    std::size_t index = 0;  ///< index of the thing among those of its kind
     std::string json;
     std::string pointer;
 };
@@ -68,7 +68,7 @@ struct GltfDocument {
     std::string animatable;  ///< JSON of what animations point to; empty if none does
     std::filesystem::path directory;
     std::string file;                             ///< for messages
-    std::uint64_t size = 0;                       ///< of the file, bytes
+    std::uint64_t size = 0;                       ///< size of the file, bytes
     std::vector<std::string> extensions_used;     ///< and supported
     std::vector<std::string> extensions_ignored;  ///< used, not supported, not required
     std::vector<std::filesystem::path> inputs;    ///< the file and the buffers it names

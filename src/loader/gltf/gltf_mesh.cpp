@@ -330,7 +330,7 @@ class PrimitiveReader {
     const tinygltf::Primitive* source_ = nullptr;
     std::optional<DracoMesh> draco_;  ///< if it is compressed
     SourceLocation where_;
-    std::size_t vertex_count_ = 0;     ///< of its accessors; 0 until the positions are read
+    std::size_t vertex_count_ = 0;     ///< count of its accessors; 0 until the positions are read
     std::vector<std::uint32_t> kept_;  ///< vertices that some triangle uses
     bool failed_ = false;
 };

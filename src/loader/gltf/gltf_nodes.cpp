@@ -354,7 +354,7 @@ class Placer {
     SceneDesc& scene_;
     ProblemList& problems_;
     LightReader lights_;
-    std::vector<std::uint32_t> node_index_;    ///< of the file's nodes, in the scene's
+    std::vector<std::uint32_t> node_index_;    ///< index in the scene of each of the file's nodes
     std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
     std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
     std::size_t moving_lights_ = 0;

@@ -79,8 +79,8 @@ class PosedNodes {
     std::vector<PlacedNode> placed_;
     std::vector<std::optional<Mat4d>> to_world_;  ///< by node
     NodePoses poses_;
-    std::vector<NodePoses> step_poses_;       ///< of nodes with weights
-    std::vector<std::vector<Mat4d>> motion_;  ///< of the nodes that move
+    std::vector<NodePoses> step_poses_;       ///< poses of the nodes with weights
+    std::vector<std::vector<Mat4d>> motion_;  ///< transforms of the nodes that move
     std::vector<int> motion_of_;              ///< by node: index into motion_, -1 for those that do not
 };
 

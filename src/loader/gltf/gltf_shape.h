@@ -28,8 +28,8 @@ struct Shape {
     double max = 0.0;  ///< greatest number
     std::size_t min_length = 0;
     std::size_t max_length = std::numeric_limits<std::size_t>::max();
-    const Shape* element = nullptr;      ///< of arrays and of maps from any key
-    const ShapeField* fields = nullptr;  ///< of objects; other keys are ignored, as glTF demands
+    const Shape* element = nullptr;      ///< shape of the elements of arrays and of maps from any key
+    const ShapeField* fields = nullptr;  ///< fields of objects; other keys are ignored, as glTF demands
     std::size_t field_count = 0;
     std::string_view target{};                  ///< JSON pointer of the array that an index refers into
     std::span<const std::string_view> texts{};  ///< if not empty: the texts allowed

@@ -18,7 +18,7 @@ struct LensSettings {
     std::optional<float> focal_length{};    ///< millimetres, > 0; none for that of the camera's field of view
     std::optional<float> sensor_width{};    ///< millimetres of the image's longer side, > 0
     std::string focus_node{};               ///< name of the node in focus, in place of the distance; empty for none
-    SourceLocation location{};              ///< of the object that says it
+    SourceLocation location{};              ///< place of the object that says it
 
     [[nodiscard]] bool empty() const {
         return !lens_radius && !focus_distance && !f_stop && !focal_length && !sensor_width && focus_node.empty();
@@ -44,7 +44,7 @@ struct CameraChange {
     LensSettings lens{};
     ViewSettings view{};
     SourceLocation location{};
-    bool is_from_extras = false;  ///< of the scene file: errors are warnings
+    bool is_from_extras = false;  ///< whether the scene file says it, so that errors are warnings
 };
 
 /// Reads the members of `object` that are about a lens; errors for what is said twice.

@@ -12,15 +12,16 @@ namespace etendue {
 /// A lamp that shines from a surface, along its local -Z if that is flat.
 struct SurfaceLamp {
     ShapeDesc shape;
-    std::string name;                      ///< of its instance
-    std::string data_name;                 ///< of its mesh and its material
+    std::string name;                      ///< name of its instance
+    std::string data_name;                 ///< name of its mesh and its material
     std::uint32_t node = NodeDesc::kNone;  ///< index into SceneDesc::nodes
     Mat4f to_world{};
     Rgb color{1.0f};        ///< linear Rec.709
     float radiance = 0.0f;  ///< W/(m² sr), of a spot's beam that along the normal
     BeamDesc beam{};
     bool visible_to_camera = true;
-    bool stops_light = true;  ///< of others; what goes on through it takes up its light on the way
+    /// Tells whether it stops other lamps' light; rays that go on through it take up its light on the way.
+    bool stops_light = true;
     SourceLocation location;
 };
 

@@ -25,7 +25,7 @@ struct LightOverride {
     std::optional<float> power;       ///< W
     std::optional<float> irradiance;  ///< W/m²
     std::optional<float> radiance;    ///< W/(m² sr)
-    float scale = 1.0f;               ///< of any of these
+    float scale = 1.0f;               ///< factor of any of these
     std::string ies;                  ///< file name of a profile; not yet resolved
     std::optional<float> radius;      ///< metres
     std::optional<float> width;       ///< metres, given with `height`, but for rectangles
@@ -35,9 +35,9 @@ struct LightOverride {
     float inner_cone_angle = 0.0f;    ///< as in LightDesc
     float outer_cone_angle = 0.785398163f;
     std::optional<bool> visible_to_camera;
-    std::optional<bool> stops_light;  ///< of others
+    std::optional<bool> stops_light;  ///< whether it stops other lamps' light
     bool enabled = true;
-    bool is_from_extras = false;  ///< of the scene file: errors are warnings
+    bool is_from_extras = false;  ///< whether the scene file says it, so that errors are warnings
     SourceLocation location;
 
     /// True of lamps that are surfaces whatever else is said.

@@ -13,7 +13,7 @@ namespace etendue {
 /// Names one factor and says where a material holds it: a number or a colour, of which one is not null.
 struct MaterialFactor {
     std::string_view name;  ///< as glTF or its extension has it, without the word factor
-    NumberRange range;      ///< of the number, or of each channel
+    NumberRange range;      ///< range of the number or of each channel
     float& (*number)(MaterialDesc& material) = nullptr;
     Rgb& (*color)(MaterialDesc& material) = nullptr;
     bool in_glossiness = true;  ///< KHR_materials_pbrSpecularGlossiness has it, too

@@ -28,11 +28,11 @@ struct MaterialOverride {
     MaterialModelDesc model;
     std::optional<int> priority;
     std::optional<EmissionOverride> emission;
-    std::vector<FactorChange> factors;  ///< of the glTF material; none beside a model
+    std::vector<FactorChange> factors;  ///< factors of the glTF material; none beside a model
     std::optional<bool> solid;          ///< the mesh bounds a body of the glTF material; none beside a model
     std::optional<bool> visible_to_camera;
     std::optional<bool> catches_shadows;
-    bool is_from_extras = false;  ///< of the scene file: errors are warnings
+    bool is_from_extras = false;  ///< whether the scene file says it, so that errors are warnings
     SourceLocation location;
 };
 
@@ -52,8 +52,8 @@ struct RenderJson {
     std::string scene;                 ///< file name; empty for the only one
     RenderSettings settings;           ///< `camera` is the name chosen
     std::optional<CameraDesc> camera;  ///< described here; chosen too
-    CameraAim camera_aim;              ///< of that
-    LensSettings lens;                 ///< of whichever camera is chosen
+    CameraAim camera_aim;              ///< aim of the chosen camera
+    LensSettings lens;                 ///< lens of whichever camera is chosen
     std::map<std::string, CameraChange> cameras;
     std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved
     std::map<std::string, MaterialOverride> materials;

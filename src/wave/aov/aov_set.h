@@ -20,7 +20,7 @@ namespace etendue {
 /// The ids of what the first surfaces belong to: those of a Cryptomatte.
 struct MatteIds {
     bool by_material = false;          ///< else by instance
-    std::vector<std::uint32_t> ids{};  ///< of each material or instance of the scene
+    std::vector<std::uint32_t> ids{};  ///< id of each material or instance of the scene
 };
 
 struct AovSet {

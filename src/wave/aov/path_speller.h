@@ -40,7 +40,7 @@ struct SpelledPath {
 struct SpelledContribution {
     std::optional<SpelledPath> path;  ///< none of integrators that do not tell paths apart
     Rgb value;                        ///< before any limit; of a splat, as a sample of the pixel has it
-    std::optional<Vec2f> position;    ///< of a splat, pixels of the full image
+    std::optional<Vec2f> position;    ///< place of a splat, pixels of the full image
     LightKind kind = LightKind::Direct;
 };
 

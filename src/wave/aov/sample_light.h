@@ -21,7 +21,7 @@ namespace etendue {
 struct BrightLight {
     std::uint32_t slot = 0;
     Rgb value{};                    ///< before any limit; of a splat, as a sample of the pixel has it
-    std::optional<Vec2f> position;  ///< of a splat, pixels of the full image
+    std::optional<Vec2f> position;  ///< place of a splat, pixels of the full image
 };
 
 class SampleLight {

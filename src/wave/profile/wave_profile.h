@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, kPathEndings> kPathEndingNames{
 
 /// How useful samples are.
 struct SampleUse {
-    std::uint64_t light_samples = 0;  ///< of next-event estimation
+    std::uint64_t light_samples = 0;  ///< samples of next-event estimation
     // Of eye paths:
     std::uint64_t bsdf_samples = 0;
     std::uint64_t bsdf_absorbed = 0;   ///< without weight
@@ -109,7 +109,7 @@ class WaveProfile {
     PathTally light_paths_;
     std::vector<LongPath> longest_;
     SampleUse use_;
-    std::vector<RayRecorder> recorders_;  ///< of each kind
+    std::vector<RayRecorder> recorders_;  ///< recorder of each kind of ray
 };
 
 /// Adds the time since the last stamp to `stage`, where there is a profile.

@@ -21,8 +21,8 @@ struct BasicMatteEnd {
     using Vec = Imath::Vec3<T>;
 
     Vec position;          ///< metres
-    Vec origin;            ///< of rays to where light is scattered to: as `position`, clear of the surface
-    Vec normal;            ///< of shading, unit, on the side of the vertex before
+    Vec origin;            ///< origin of rays on the side that light is scattered to: `position`, clear of the surface
+    Vec normal;            ///< shading normal, unit, on the side of the vertex before
     Vec geometric_normal;  ///< unit, on the same side
     /// Multiplies `radiance` and `importance`: the throughput that arrives, times the albedo and its gain where the
     /// normal leans (bsdf/leaning_normal.h), for importance also times OrientedSurface::received. Black where nothing

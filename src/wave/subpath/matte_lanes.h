@@ -19,7 +19,7 @@ struct MatteLanes : SurfaceLanes {
 
     // The surface as it faces wo: `tangent` and `normal` are turned to it, too.
     Vec3Columns facing_normal;
-    Column reverse_pdf;  ///< of turning back, per solid angle, wherever the walk comes from
+    Column reverse_pdf;  ///< density of turning back, 1/sr, wherever the walk comes from
 
     // What MatteEnd has besides.
     Vec3Columns end_origin;

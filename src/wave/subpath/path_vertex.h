@@ -23,9 +23,10 @@ struct PathVertex {
     Vec3f position{0.0f};                 ///< metres
     Vec3f wo{0.0f};                       ///< unit, to the vertex before
     std::optional<Scattering> surface{};  ///< none in a medium, nor yet where `matte` is given
-    const Bsdf* matte = nullptr;          ///< of a vertex with a MatteEnd, from which SubpathVertices::whole makes it
-    Vec3f geometric_normal{0.0f};         ///< unit, on the surface's front
-    float clearance = 0.0f;               ///< metres, as in SurfacePoint
+    /// Holds the material of a vertex with a MatteEnd, from which SubpathVertices::whole makes its surface.
+    const Bsdf* matte = nullptr;
+    Vec3f geometric_normal{0.0f};                ///< unit, on the surface's front
+    float clearance = 0.0f;                      ///< metres, as in SurfacePoint
     const HomogeneousMedium* outside = nullptr;  ///< medium on the front; null in vacuum
     const HomogeneousMedium* inside = nullptr;   ///< medium on the back; in a medium, as `outside`
     Rgb throughput{};                            ///< as the subpath arrives, without the weight of its wavelength

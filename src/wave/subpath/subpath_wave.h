@@ -71,7 +71,7 @@ class LightFinder {
 
 /// A subpath whose ray has hit a surface, between the stages of its shading.
 struct ShadedSubpath {
-    SurfacePoint point;           ///< of a plain surface, its material only
+    SurfacePoint point;           ///< surface point; for a plain surface its material only
     const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `MatteLanes`
     std::size_t lane = 0;         ///< lane of a plain surface in `MatteLanes`
     SubpathDensities arrived;
@@ -160,15 +160,16 @@ class SubpathWave {
     NumberPairs scattering_, choices_, medium_;
     // Of the block that advances.
     std::array<ShadedSubpath, kBlockLanes> block_;
-    std::array<std::uint8_t, kBlockLanes>
-        on_surface_{};  ///< places in the block of those on surfaces, then with vertices
+    /// Holds places in the block of those on surfaces, then with vertices.
+    std::array<std::uint8_t, kBlockLanes> on_surface_{};
     std::size_t surfaces_ = 0;
     MatteLanes lanes_;
     std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
     ArrivalColumns arrivals_;
     std::array<bool, kBlockLanes> goes_on_{};
     // By slot.
-    NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
+    NumberPairs light_choice_, triangle_, position_,
+        direction_;  ///< numbers that choose where subpaths from lights begin
     std::vector<Emission> emissions_;
     SubpathVertices vertices_;
 };
