@@ -99,13 +99,14 @@ void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitC
 
 /// Leaves out all but the images that failed last time, or were not tried as others of their scene had failed.
 void keep_failed(BatchTasks& tasks, const LedgerHistory& history) {
-    const auto others = std::ranges::stable_partition(tasks.chosen, [&](const BatchTask& task) {
+    std::vector<BatchTask>& chosen = tasks.chosen;
+    const auto others = std::stable_partition(chosen.begin(), chosen.end(), [&](const BatchTask& task) {
         const LedgerHistory::Entry* const last = history.find(task.id);
         return last != nullptr &&
                (last->kind == LedgerEventKind::UnitFailed || last->kind == LedgerEventKind::UnitNotTried);
     });
-    std::ranges::move(others, std::back_inserter(tasks.left_out));
-    tasks.chosen.erase(others.begin(), others.end());
+    std::move(others, chosen.end(), std::back_inserter(tasks.left_out));
+    chosen.erase(others, chosen.end());
 }
 
 /// Opens the log, which may lie in the output directory that is still to be made.
