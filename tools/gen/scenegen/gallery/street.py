@@ -37,7 +37,7 @@ def build():
     trim = gltf.add_material("trim", base_color=(0.45, 0.42, 0.37), roughness=0.8)
     glass = gltf.add_material("dark pane", base_color=(0.01, 0.012, 0.016), roughness=0.04)
     shops = [gltf.add_material(f"shop {k + 1}", base_color=(0, 0, 0), emission=color, emissive_texture=gltf.add_texture(
-        f"shop {k + 1}", _shop(256, k))) for k, color in enumerate(((2.3, 1.55, 0.80), (2.0, 1.15, 0.50), (1.7, 1.55, 1.30)))]
+        f"shop {k + 1}", _shop(256, k))) for k, color in enumerate(((1.5, 0.95, 0.46), (1.4, 0.78, 0.32), (1.2, 1.02, 0.76)))]
     lit = []
     for k, color in enumerate(((1.0, 0.62, 0.28), (1.0, 0.72, 0.42), (1.0, 0.50, 0.18), (0.72, 0.84, 1.0), (1.0, 0.80, 0.56))):
         for level in (0.5, 1.1, 2.2):
@@ -114,7 +114,7 @@ def _shop(size, seed):
         place, across, up = math.floor(column), column % 1.0, 1.0 - shelf % 1.0
         lamp = 0.35 + 0.65 * math.exp(-((u - 0.5) ** 2 + 0.6 * v * v) / 0.16)
         kind, goods = hashed(place, math.floor(shelf), seed), hashed(place, math.floor(shelf), seed + 9)
-        color = (0.46, 0.38, 0.29)
+        color = (0.44, 0.32, 0.20)
         if up < 0.07:
             color = (0.11, 0.065, 0.04)
         elif kind > 0.22:
@@ -124,7 +124,7 @@ def _shop(size, seed):
             edge = 1.0 if kind < 0.6 or up < 0.8 * tall else 1.0 - 2.0 * (up / tall - 0.8)
             if up - 0.07 < tall and side < edge:
                 tone = [0.07 + 0.34 * hashed(place, math.floor(shelf), seed + k) ** 2 for k in (5, 6, 7)]
-                color = [c * (1.15 - 0.75 * side * side) for c in textures.mix(tone, (0.30, 0.20, 0.10), 0.4)]
+                color = [c * (1.15 - 0.75 * side * side) for c in textures.mix(tone, (0.22, 0.13, 0.06), 0.7)]
         return [lamp * c for c in color]
 
     return linear_png(size, size, texel)
