@@ -1,6 +1,6 @@
 """The scenes of docs/gallery.md by name, each with a build() of its own."""
 
-from . import chess, cradle, glasses, hall, interior, jewels, pool, racer, street
+from . import chess, cradle, glasses, interior, jewels, pool, racer, street
 
 SCENES = {
     "glasses": glasses.build,
@@ -10,6 +10,5 @@ SCENES = {
     "street": street.build,
     "chess": chess.build,
     "racer": racer.build,
-    "hall": hall.build,
     "cradle": cradle.build,
 }

@@ -26,7 +26,7 @@ def build():
     _lamps(scene)
     scene.camera((0.370, 0.205, 0.375), (0.002, 0.034, 0.004), 20.5)
     scene.render_json.update({"/integrator/type": "path", "/integrator/max_depth": 16, "/lens_radius": 0.0030,
-                              "/focus_distance": 0.49, "/environment/color": [0.07, 0.075, 0.085], "/color/exposure": 0.0})
+                              "/focus_distance": 0.49, "/environment/color": [0.07, 0.075, 0.085], "/color/exposure": 0.35})
     return scene
 
 
