@@ -1,4 +1,4 @@
-"""Tests of the bodies of which the scenes of docs/gallery.md are made: closed, as large as they should be, facing outwards."""
+"""Tests of the gallery: its bodies are closed, as large as they should be and face outwards; each scene has its place on the page."""
 
 import collections
 import math
@@ -9,10 +9,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools/gen")]
 
-from scenegen.gallery.shapes import rounded_box, surface, tube  # noqa: E402
+from scenegen.gallery import SCENES  # noqa: E402
+from scenegen.gallery.shapes import refined, rounded_box, surface, tube  # noqa: E402
 from scenegen.mesh import revolved, smooth_outline  # noqa: E402
 from scenegen.scenes.caustic_glasses import GOBLET  # noqa: E402
 from scenegen.vector import cross, dot, sub  # noqa: E402
+from tool_module import load_tool  # noqa: E402
 
 
 def triangles(mesh):
@@ -59,12 +61,25 @@ class ShapesTest(unittest.TestCase):
 
         self.check(surface(place, 96, 48, wrap_columns=True), 4.0 / 3.0 * math.pi, 0.01)
 
+    def test_a_refined_path_goes_through_its_points_and_keeps_lines(self):
+        points = [(0.0, 0.0, 0.0), (1.0, 2.0, 0.0), (2.0, 4.0, 0.0), (3.0, 6.0, 0.0), (5.0, 1.0, 2.0)]
+        path = refined(points, 4)
+        self.assertEqual(path[::4], points)
+        for x, y, z in path[4:9]:
+            self.assertAlmostEqual(y, 2.0 * x)
+            self.assertEqual(z, 0.0)
+
     def test_a_smooth_outline_is_exact_at_its_points(self):
         points, _ = smooth_outline(GOBLET, 4)
         for (radius, height), (r, h) in zip(points[::4], GOBLET):
             self.assertAlmostEqual(radius, r, places=9)
             self.assertAlmostEqual(height, h, places=9)
         self.assertGreater(revolved(*smooth_outline(GOBLET, 4), 16).triangle_count, 0)
+
+
+class PageTest(unittest.TestCase):
+    def test_every_scene_is_a_picture(self):
+        self.assertEqual(sorted(load_tool("gallery").GALLERY), sorted(SCENES))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,14 @@
 """The scenes of docs/gallery.md by name, each with a build() of its own."""
 
-from . import chess, glasses, jewels, pool, street
+from . import chess, cradle, glasses, interior, jewels, pool, racer, street
 
 SCENES = {
     "glasses": glasses.build,
     "jewels": jewels.build,
-    "chess": chess.build,
+    "interior": interior.build,
     "pool": pool.build,
     "street": street.build,
+    "chess": chess.build,
+    "racer": racer.build,
+    "cradle": cradle.build,
 }

@@ -33,7 +33,7 @@ def build():
     stone = {"onyx": gltf.add_material("onyx", base_color=(0.9, 0.85, 0.75)),
              "jade": gltf.add_material("jade", base_color=(0.2, 0.5, 0.3))}
     for name, albedo, radius, ior in (("onyx", [0.93, 0.84, 0.70], [0.0085, 0.0052, 0.0030], 1.5),
-                                      ("jade", [0.26, 0.55, 0.36], [0.0030, 0.0052, 0.0034], 1.61)):
+                                      ("jade", [0.33, 0.49, 0.37], [0.0032, 0.0050, 0.0036], 1.61)):
         scene.render_json[f"/materials/{name}/subsurface"] = {
             "albedo": albedo, "radius": radius, "ior": ior, "roughness": 0.12}
     figures = {name: revolved(*smooth_outline([(0.01 * r, 0.01 * h) for r, h in outline], 5), 96)
@@ -42,7 +42,7 @@ def build():
     cross = [rounded_box((-0.0016, 0.0885, -0.0015), (0.0016, 0.1045, 0.0015), 0.0008, 3),
              rounded_box((-0.0050, 0.0960, -0.0014), (0.0050, 0.0991, 0.0014), 0.0008, 3)]
     for k, (name, color, file, rank, dx, dz) in enumerate((
-            ("king", "onyx", 2, 5, .003, .001), ("queen", "onyx", 3, 3, -.002, .002), ("rook", "onyx", 0, 3, 0, .002),
+            ("king", "onyx", 2, 5, .003, .001), ("queen", "onyx", 3, 3, -.002, .002), ("rook", "onyx", 0, 1, 0, .002),
             ("pawn", "onyx", 1, 5, .001, -.003), ("pawn", "onyx", 3, 6, -.003, 0), ("bishop", "onyx", 1, 2, 0, 0),
             ("king", "jade", 5, 2, .002, -.002), ("queen", "jade", 6, 4, -.002, .003), ("rook", "jade", 4, 1, .002, 0),
             ("pawn", "jade", 5, 5, 0, .002), ("pawn", "jade", 6, 2, .003, .001), ("bishop", "jade", 4, 4, .003, -.003),
@@ -108,5 +108,5 @@ def _lamps(scene):
             ("lantern", (0.80, 0.34, -0.42), (0.16, 0.22), (42.0, 25.0, 11.0)),
             ("fill", (0.5, 0.9, 1.3), (0.8, 0.5), (0.9, 1.0, 1.15))):
         scene.add_lamp(name, panel(*size), radiance, translation=center, rotation=look_at(center, (0.0, 0.04, 0.0)))
-    backdrop = scene.add_diffuse("backdrop", (0.10, 0.075, 0.06))
+    backdrop = scene.add_diffuse("backdrop", (0.30, 0.22, 0.17))
     scene.add_object("backdrop", panel(6.0, 3.0), backdrop, translation=(0.0, 0.5, -1.7), rotation=turned((0.0, 1.0, 0.0), 180.0))

@@ -7,7 +7,7 @@ from ..mesh import convex, panel, revolved, sphere
 from ..scenes.diamond import DISPERSION, INDEX, MAIN, brilliant
 from ..vector import add, cross, dot, look_at, normalize, quaternion_of_axes, scale
 from . import textures
-from .shapes import height_field, moved, tube
+from .shapes import height_field, moved, refined, tube
 from .stage import Stage
 
 STONE, BAND, BAND_HALF_WIDTH, BAND_HALF_DEPTH = 0.36, 0.92, 0.13, 0.075
@@ -78,8 +78,8 @@ def _ring(scene, diamond):
         angle = 2.0 * math.pi * (k + 0.5) / 6
         c, s = math.cos(angle), math.sin(angle)
         profile = ((0.10, -0.33), (0.20, -0.24), (0.33, -0.09), (0.385, 0.01), (0.377, 0.055), (0.335, 0.095), (0.305, 0.112))
-        parts.append(tube([outwards((r * c, h, r * s)) for r, h in _refined(profile)],
-                          [0.030 + 0.004 * math.cos(k) for _ in _refined(profile)], 16))
+        parts.append(tube([outwards((r * c, h, r * s)) for r, h in refined(profile)],
+                          [0.030 + 0.004 * math.cos(k) for _ in refined(profile)], 16))
     for radius, h, thickness in ((0.235, -0.185, 0.022),):
         parts.append(tube([outwards((radius * math.cos(a), h, radius * math.sin(a)))
                            for a in (2.0 * math.pi * i / 64 for i in range(64))], thickness, 12, closed=True))
@@ -87,19 +87,6 @@ def _ring(scene, diamond):
         scene.add_object(f"ring {k + 1}", part, gold, **place)
     stone = moved(convex(brilliant(STONE)), lambda p: outwards(p))
     scene.add_object("stone", stone, diamond, **place)
-
-
-def _refined(points, steps=5):
-    """More points between `points`, on Catmull and Rom's cubics."""
-    ends = [points[0], *points, points[-1]]
-    result = []
-    for i in range(len(points) - 1):
-        p0, p1, p2, p3 = ends[i:i + 4]
-        for k in range(steps):
-            u = k / steps
-            result.append(tuple(0.5 * (2.0 * b + (c - a) * u + (2.0 * a - 5.0 * b + 4.0 * c - d) * u * u
-                                       + (3.0 * b - a - 3.0 * c + d) * u ** 3) for a, b, c, d in zip(p0, p1, p2, p3)))
-    return [*result, points[-1]]
 
 
 def step_cut(width, depth):

@@ -3,7 +3,7 @@
 import math
 import random
 
-from ..mesh import sphere, wall
+from ..mesh import sphere, wall, wavy_block
 from ..patterns import tiles
 from ..room import add_room
 from ..scenes import caustic_pool as pool
@@ -15,12 +15,16 @@ from .stage import Stage, turned
 SUN = math.radians(46.0), math.radians(-118.0)
 UNIT, TURBIDITY, GROUND = 22.0, 2.8, (0.30, 0.29, 0.25)
 SLAB, JOINT = 0.60, 0.004
+# Wavelength, direction in degrees and phase of each wave, and the curvature of each: on the floor their light meets.
+WAVES = ((1.30, 20.0, 0.3), (0.83, 71.0, 2.1), (0.61, -41.0, 4.0), (0.45, 128.0, 1.2), (0.33, 48.0, 5.1), (0.24, -12.0, 2.8),
+         (0.19, 95.0, 0.7))
+CURVATURE = 0.85
 
 
 def build():
     scene = Stage()
     gltf = scene.gltf
-    blues = ((0.06, 0.30, 0.42), (0.14, 0.46, 0.55), (0.30, 0.62, 0.66), (0.50, 0.74, 0.73))
+    blues = ((0.16, 0.42, 0.50), (0.30, 0.58, 0.62), (0.45, 0.70, 0.72), (0.60, 0.78, 0.77))
     mosaic = gltf.add_material("tiles", roughness=0.25, base_color_texture=gltf.add_texture("tiles", tiles(
         512, 8, blues, grout=(0.62, 0.63, 0.60), grout_width=0.06)))
     low, high = pool.LOW, pool.HIGH
@@ -28,14 +32,34 @@ def build():
              {side: mosaic for side in ("floor", "left", "right", "back", "front")}, uv_per_meter=1.0 / (8.0 * pool.TILE))
     scene.add_object("steps", pool.steps(), mosaic)
     water = scene.add_glass("water", 1.333, thickness=1.0, attenuationColor=[0.50, 0.86, 0.93], attenuationDistance=3.2)
-    scene.add_object("water", pool.water(), water)
+    scene.add_object("water", _water(), water)
     _deck(scene)
     _ladder(scene)
     _floats(scene)
     scene.add_daylight(Sky(*SUN, TURBIDITY, UNIT, GROUND), 256)
-    scene.camera((1.45, 1.55, 3.05), (-0.10, -0.42, -0.05), 34.0)
+    scene.camera((1.05, 1.75, 2.75), (0.02, -0.36, 0.05), 33.0)
     scene.render_json.update({"/integrator/type": "vcm", "/integrator/max_depth": 16, "/lights/sun/angle": 0.0093})
     return scene
+
+
+def _water():
+    """The closed body of the water, which reaches behind the tiles."""
+    def wave(x, z):
+        height, along_x, along_z = pool.LEVEL, 0.0, 0.0
+        for wavelength, degrees, phase in WAVES:
+            number = 2.0 * math.pi / wavelength
+            kx, kz = number * math.cos(math.radians(degrees)), number * math.sin(math.radians(degrees))
+            # Crests lie a little askew, so that they do not run straight across the pool.
+            angle = kx * x + kz * z + phase + 0.5 * math.sin(1.9 * x - 2.6 * z + 3.0 * phase)
+            bend_x, bend_z = (c * 0.5 * math.cos(1.9 * x - 2.6 * z + 3.0 * phase) for c in (1.9, -2.6))
+            amplitude = CURVATURE / number ** 2
+            height += amplitude * math.sin(angle)
+            along_x += amplitude * math.cos(angle) * (kx + bend_x)
+            along_z += amplitude * math.cos(angle) * (kz + bend_z)
+        return height, along_x, along_z
+
+    low = (pool.LOW[0] - pool.OVERLAP, pool.BOTTOM - pool.OVERLAP, pool.LOW[1] - pool.OVERLAP)
+    return wavy_block(low, (pool.HIGH[0] + pool.OVERLAP, pool.HIGH[1] + pool.OVERLAP), 400, 284, wave)
 
 
 def _deck(scene):

@@ -1,4 +1,4 @@
-"""A street by the water at night: some thousand lit windows and lamps, and what a wet pavement makes of them. Metres."""
+"""A street at night: some thousand lit windows and lamps, and what a wet pavement makes of them. Metres."""
 
 import math
 import random
@@ -19,7 +19,8 @@ def build():
     scene = Stage()
     gltf = scene.gltf
     puddles = gltf.add_texture("puddles", textures.roughness(512, 0.03, 0.55, 5, 5, 21))
-    asphalt_relief = gltf.add_texture("asphalt relief", textures.relief(512, lambda u, v: textures.fractal(u, v, 64, 64, 2, 70), 0.8))
+    asphalt_relief = gltf.add_texture("asphalt relief", textures.relief(
+        512, lambda u, v: textures.fractal(u, v, 64, 64, 2, 70), 0.8))
     asphalt = scene.textured("asphalt", None, asphalt_relief, puddles, base_color=(0.035, 0.036, 0.040), normal_scale=0.25)
     scene.add_object("road", ground(140.0, 0.0, 0.16), asphalt)
     numbers = random.Random(12)
@@ -36,7 +37,7 @@ def build():
     trim = gltf.add_material("trim", base_color=(0.45, 0.42, 0.37), roughness=0.8)
     glass = gltf.add_material("dark pane", base_color=(0.01, 0.012, 0.016), roughness=0.04)
     shops = [gltf.add_material(f"shop {k + 1}", base_color=(0, 0, 0), emission=color, emissive_texture=gltf.add_texture(
-        f"shop {k + 1}", _shop(256, k))) for k, color in enumerate(((0.85, 0.60, 0.33), (0.75, 0.45, 0.20), (0.62, 0.60, 0.54)))]
+        f"shop {k + 1}", _shop(256, k))) for k, color in enumerate(((1.5, 0.95, 0.46), (1.4, 0.78, 0.32), (1.2, 1.02, 0.76)))]
     lit = []
     for k, color in enumerate(((1.0, 0.62, 0.28), (1.0, 0.72, 0.42), (1.0, 0.50, 0.18), (0.72, 0.84, 1.0), (1.0, 0.80, 0.56))):
         for level in (0.5, 1.1, 2.2):
@@ -49,9 +50,11 @@ def build():
             z -= width
             count += 1
     _lanterns(scene, numbers)
-    scene.camera((-1.6, 1.9, 3.5), (0.9, 4.6, -22.0), 43.0)
+    # Level and shifted, so that what is upright stays so.
+    scene.camera((-1.75, 1.72, 3.4), (0.75, 1.72, -22.0), 46.0)
+    scene.render_json["/cameras/camera/shift"] = [0.0, 0.105]
     scene.render_json.update({"/integrator/type": "path", "/integrator/max_depth": 8, "/integrator/light_samples": 2,
-                              "/environment/color": [0.010, 0.014, 0.026], "/color/exposure": -0.2})
+                              "/environment/color": [0.010, 0.014, 0.026], "/color/exposure": 0.2})
     return scene
 
 
@@ -105,18 +108,24 @@ def _house(scene, side, front, width, numbers, wall, trim, frame, glass, lit, sh
 
 
 def _shop(size, seed):
-    """What a shop shows: shelves of goods before a bright wall, darker towards the floor."""
+    """What a shop shows: three shelves of jars and boxes in the light of a lamp above, and a curtain behind the lower half."""
     def texel(u, v):
-        x, y = 9.0 * u, 6.0 * v
-        shelf, across = math.floor(y), y % 1.0
-        goods = hashed(math.floor(4.0 * x), shelf, seed)
-        width, tall = (4.0 * x) % 1.0, 0.35 + 0.55 * goods
-        if across > 0.93:
-            return (0.10, 0.07, 0.05)
-        if 1.0 - across < tall and 0.08 < width < 0.92 and goods > 0.25:
-            tone = [0.08 + 0.75 * hashed(math.floor(4.0 * x), shelf, seed + k) ** 2 for k in (5, 6, 7)]
-            return [c * (0.5 + 0.5 * math.sin(math.pi * width)) for c in tone]
-        return (0.62, 0.55, 0.45)
+        column, shelf = 7.0 * u, 3.0 * v
+        place, across, up = math.floor(column), column % 1.0, 1.0 - shelf % 1.0
+        lamp = 0.35 + 0.65 * math.exp(-((u - 0.5) ** 2 + 0.6 * v * v) / 0.16)
+        kind, goods = hashed(place, math.floor(shelf), seed), hashed(place, math.floor(shelf), seed + 9)
+        color = (0.44, 0.32, 0.20)
+        if up < 0.07:
+            color = (0.11, 0.065, 0.04)
+        elif kind > 0.22:
+            tall, half = 0.30 + 0.45 * goods, 0.20 + 0.20 * kind
+            side = abs(across - 0.5) / half
+            # Jars have shoulders.
+            edge = 1.0 if kind < 0.6 or up < 0.8 * tall else 1.0 - 2.0 * (up / tall - 0.8)
+            if up - 0.07 < tall and side < edge:
+                tone = [0.07 + 0.34 * hashed(place, math.floor(shelf), seed + k) ** 2 for k in (5, 6, 7)]
+                color = [c * (1.15 - 0.75 * side * side) for c in textures.mix(tone, (0.22, 0.13, 0.06), 0.7)]
+        return [lamp * c for c in color]
 
     return linear_png(size, size, texel)
 
