@@ -94,7 +94,9 @@ float MeshLight::gain_by_solid_angle(std::uint32_t triangle, const Vec3f& on_lig
     constexpr float kLeastCosine = 1e-12f;
     const Vec3f to_point = point - on_light;
     const float squared = std::max(length_squared(to_point), std::numeric_limits<float>::min());
-    const float cosine = std::max(kLeastCosine, std::abs(dot(faces_[triangle].normal, to_point)) / std::sqrt(squared));
+    // From a vertex and not from `on_light`, which rounding moves off the plane: all have to say the same.
+    const Face& face = faces_[triangle];
+    const float cosine = std::max(kLeastCosine, std::abs(dot(face.normal, point - face.p0)) / std::sqrt(squared));
     return area_ * cosine / (squared * static_cast<float>(solid_angle));
 }
 

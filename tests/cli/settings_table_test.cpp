@@ -275,6 +275,7 @@ TEST(CanonicalSettings, AreTheSameForAFrameOfWhateverSequence) {
     one.fps = 12.0;
     RenderSettings other;
     other.time_code = 0.5;
+    other.fps = 12.0;  // which layers of motion and headers have
     EXPECT_EQ(settings_identity(one), settings_identity(other));
     EXPECT_EQ(requested_settings(one), requested_settings(other));
 }

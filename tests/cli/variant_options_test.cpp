@@ -1,6 +1,7 @@
 #include "cli/variant_options.h"
 
 #include "cli/settings_options.h"
+#include "session/usage_error.h"
 
 #include <utility>
 
@@ -27,9 +28,9 @@ TEST(WithOptions, AddsToThoseOfAllVariants) {
 }
 
 TEST(WithOptions, RefusesWhatIsDecidedForAll) {
-    for (const char* options :
-         {"--seed 1", "--spp 3", "--time 1", "--frames 1:3", "--half", "--float", "--help", "more"})
+    for (const char* options : {"--seed 1", "--spp 3", "--time 1", "--frames 1:3", "--half", "--float"})
         EXPECT_THROW((void)with_options({}, options), CLI::ParseError) << options;
+    for (const char* options : {"--help", "more"}) EXPECT_THROW((void)with_options({}, options), UsageError) << options;
     EXPECT_NO_THROW((void)with_options({}, "--quality preview"));
 }
 

@@ -116,7 +116,7 @@ TEST(MeshLight, RectanglesAreFoundAmongTriangles) {
             }
             EXPECT_NEAR(middle[0], 2.0, 0.15);
             EXPECT_NEAR(middle[2], 3.5, 0.08);
-            EXPECT_TRUE(found->seen_from({2.0f, 0.0f, 3.5f}));
+            EXPECT_TRUE(found->seen_from({2.0f, 1.0f, 3.5f}));
             EXPECT_FALSE(found->seen_from({2.0f, 12.0f, 3.5f}));
         }
 }

@@ -69,6 +69,7 @@ RenderStatistics make_statistics() {
          .t = 1,
          .edges = 3},
         {.x = 3, .y = 4, .sample_x = 3, .sample_y = 4, .sample = 5, .value = {1.0f, 1.0f, 0.5f}, .path = ""}};
+    s.file_sizes = {{"box.exr", 2800}};
     s.exposure = 1.5f;
     s.exposure_reason = "it was dark";
     s.clipped_share = 0.25;
@@ -86,7 +87,7 @@ TEST(StatisticsJson, HasEveryField) {
         "settings": {"/spp": 8, "/color/exposure": 0.1}, "requested_settings": {"/spp": 8},
         "command": "etendue render box",
         "inputs": [{"path": "textures/sky.exr", "size": 12, "modified": 34, "content": "0123"}],
-        "layer_files": ["box.depth.exr"], "light_units": "radiometric",
+        "layer_files": ["box.depth.exr"], "file_sizes": {"box.exr": 2800}, "light_units": "radiometric",
         "exposure": {"stops": 1.5, "chosen": "it was dark", "clipped_share": 0.25}, "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "estimated_relative_error": 0.125,
         "spp": {"requested": 16, "done": 8}, "adaptive": {"least": 8, "mean": 12.5, "most": 16},

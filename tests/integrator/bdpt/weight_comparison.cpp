@@ -1,5 +1,6 @@
 #include "integrator/bdpt/weight_comparison.h"
 
+#include "integrator/bdpt/emitted_ray.h"
 #include "integrator/bdpt/made_paths.h"
 #include "integrator/bdpt/recursive_weights.h"
 #include "integrator/bdpt/reference_weights.h"
@@ -50,6 +51,18 @@ float least_height(const CompletePath& path) {
     return least;
 }
 
+/// Returns whether the path leaves its light along the edge of what lights aim at, where the density of the emission
+/// jumps: rounding of the point on the light decides on which side of it the path is.
+bool leaves_along_an_edge(const MisContext& mis, const CompletePath& path) {
+    if (path.end.light == kNone || mis.world.lights().is_at_infinity(path.end.light)) return false;
+    const EmittedRay ray = emitted_ray(mis.world, path);
+    EmittedRay rounded = ray;
+    const Vec3f& next = path.inner.front()->position;
+    rounded.point = next - path.end.direction * length(path.end.position - next);
+    const float density = mis.world.emitters().pdf(ray, mis.aims);
+    return std::abs(mis.world.emitters().pdf(rounded, mis.aims) / density - 1.0f) > 0.01f;
+}
+
 class Comparison {
   public:
     explicit Comparison(float short_edge) : short_edge_(short_edge) {}
@@ -69,7 +82,7 @@ class Comparison {
             if (is_well_conditioned(path)) ++different_without_excuse;
         }
         if (error <= worst || shortest_edge(path) < kTellsNothing * short_edge_ ||
-            least_height(path) < kTellsNoCosine * short_edge_)
+            least_height(path) < kTellsNoCosine * short_edge_ || leaves_along_an_edge(mis, path))
             return;
         worst = error;
         worst_path = fmt::format(
