@@ -12,7 +12,7 @@
 
 namespace etendue {
 
-/// Is what an image needs of which nothing is known: it is rendered alone.
+/// Stands for the memory of an image whose need is unknown, which is rendered alone.
 inline constexpr std::uint64_t kAllMemory = std::numeric_limits<std::uint64_t>::max();
 
 /// Returns the bytes of memory that the process of an image will need: what was estimated, kLeastMemoryLimit at least

@@ -19,8 +19,8 @@ struct BatchTask {
 };
 
 struct BatchTasks {
-    std::vector<BatchTask> chosen{};    ///< those of one scene beside each other
-    std::vector<BatchTask> left_out{};  ///< what --only, --exclude or --failed leave as it is
+    std::vector<BatchTask> chosen{};    ///< tasks to do, one scene after the other
+    std::vector<BatchTask> left_out{};  ///< tasks that --only, --exclude or --failed leave out
 };
 
 /// Returns the name of the image without noise beside the image `output`.

@@ -14,8 +14,9 @@
 // On all other surfaces the layers lie on both sides.
 //
 // A coat with a normal of its own over anything but a body is placed by itself (world/coated_scattering.h). White
-// dielectrics reflect between 0.95 and 1.01 under it; metals lose up to 20% where the two normals are far apart. Here,
-// which is what albedos are estimated from, light below the base's horizon is lost.
+// dielectrics reflect between 0.95 and 1.01 under it if the normals are less than 90 degrees apart; metals lose up to
+// 20% where the two normals are far apart. Here, which is what albedos are estimated from, light below the base's
+// horizon is lost.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"

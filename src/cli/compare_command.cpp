@@ -181,7 +181,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
 /// A reference that is asked for: what can be known of it before anything is rendered.
 struct RequestedReference {
     std::optional<ImageF> image{};            ///< image of the file
-    std::optional<ReferenceOrigin> origin{};  ///< of a file that says with which seeds it was rendered
+    std::optional<ReferenceOrigin> origin{};  ///< origin of a file that tells its seeds
     std::optional<Variant> variant{};         ///< that renders it
     std::vector<std::string> notes{};
 };

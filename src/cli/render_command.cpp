@@ -37,7 +37,7 @@ struct RenderArguments {
     ImageJobOptions job;
     std::string scene;
     std::filesystem::path output;
-    std::optional<int> first_frame;  ///< of a sequence of which only a part is rendered here
+    std::optional<int> first_frame;  ///< first frame of a sequence that is rendered in part
     int threads = 0;
     bool force = false;
     bool probe = false;

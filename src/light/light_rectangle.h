@@ -16,7 +16,7 @@ namespace etendue {
 /// Holds a place on one of the two triangles.
 struct RectanglePlace {
     std::uint32_t triangle = 0;
-    Vec2f barycentric{0.0f, 0.0f};  ///< of its second and third vertex
+    Vec2f barycentric{0.0f, 0.0f};  ///< coordinates of its second and third vertex
 };
 
 class LightRectangle {

@@ -21,7 +21,7 @@ struct LampSeen {
     Rgb light;                       ///< W/(m² sr)
     ExpressionMask expressions = 0;  ///< expressions that the light is a part of
     Vec3f first_position{0.0f};      ///< metres, of the surface that the camera ray has met
-    float time = 0.0f;               ///< of the camera ray, [0, 1] while the shutter is open
+    float time = 0.0f;               ///< time of the camera ray, [0, 1] while the shutter is open
 };
 
 /// Returns where `film`, pixels of the full image of `job`, is on the film of the camera, in [0, 1)² within the image.

@@ -111,7 +111,7 @@ class ShadowRayQueue {
     std::size_t count_ = 0;  ///< in columns
     std::array<std::vector<float>, kFloatColumns> floats_;
     std::array<std::vector<std::uint32_t>, kBitColumns> bits_;
-    std::vector<SplatPlace> places_;  ///< of splats: of all connections or of none
+    std::vector<SplatPlace> places_;  ///< places of splats: for all connections or for none
     std::vector<ExpressionShare> shares_;
     std::vector<std::uint8_t> occluded_;
 };
