@@ -14,9 +14,8 @@ std::array<Vec3d, 3> corners_of(const LightTriangle& t) {
     return {p0, p0 + Vec3d(t.edge1), p0 + Vec3d(t.edge2)};
 }
 
-/// Bounds the solid angle, steradians, up to which a rectangle is sampled by area: from 0.2 on, cornell-box takes 1.2
-/// times as long for the same noise.
-constexpr double kLeastSolidAngle = 1.0;
+/// Bounds the solid angle, steradians, up to which a rectangle is sampled by area, which takes a fraction of the time.
+constexpr float kLeastSolidAngle = 1.0f;
 
 Vec3d front_of(const LightTriangle& t) {
     return Vec3d(t.edge1).cross(Vec3d(t.edge2));
@@ -61,20 +60,26 @@ std::optional<LightRectangle> LightRectangle::find(std::span<const LightTriangle
         found.normal_ = Vec3f(x.cross(y).normalized());
         found.size_ = {static_cast<float>(x.length()), static_cast<float>(y.length())};
         found.center_ = Vec3f(p[c] + (x + y) * 0.5);
-        // It is seen by no more than its area over the square of the distance from its nearest point.
+        // The bound of `seen_nearby` is below area / d², where d is the distance from the nearest point.
         const double area = x.cross(y).length();
-        const double near = 0.5 * (x + y).length() + std::sqrt(area / kLeastSolidAngle);
+        const double near = 0.5 * (x + y).length() + std::sqrt(1.001 * area / static_cast<double>(kLeastSolidAngle));
         found.near_squared_ = static_cast<float>(near * near);
         return found;
     }
     return std::nullopt;
 }
 
-std::optional<SphericalRectangle> LightRectangle::seen_from(const Vec3f& point) const {
-    if (!(length_squared(point - center_) < near_squared_)) return std::nullopt;
+std::optional<SphericalRectangle> LightRectangle::seen_nearby(const Vec3f& point) const {
     const Vec3f to_corner = corner_ - point;
-    const SphericalRectangle seen({dot(to_corner, axis_x_), dot(to_corner, axis_y_), dot(to_corner, normal_)}, size_);
-    if (!(seen.solid_angle() > kLeastSolidAngle)) return std::nullopt;
+    const Vec3f corner(dot(to_corner, axis_x_), dot(to_corner, axis_y_), dot(to_corner, normal_));
+    // The solid angle is the integral of |z| / d³ over the area, so at most its largest value times the area.
+    const float x = std::max({corner.x, -corner.x - size_.x, 0.0f});
+    const float y = std::max({corner.y, -corner.y - size_.y, 0.0f});
+    const float nearest_squared = x * x + y * y + corner.z * corner.z;
+    const float bound = size_.x * size_.y * std::abs(corner.z);
+    if (!(bound > kLeastSolidAngle * nearest_squared * std::sqrt(nearest_squared))) return std::nullopt;
+    const SphericalRectangle seen(corner, size_);
+    if (!(seen.solid_angle() > 0.0)) return std::nullopt;
     return seen;
 }
 

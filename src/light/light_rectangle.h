@@ -24,9 +24,11 @@ class LightRectangle {
     /// Returns the rectangle that `triangles` make, both with the same side as their front; none if they do not.
     [[nodiscard]] static std::optional<LightRectangle> find(std::span<const LightTriangle> triangles);
 
-    /// Returns the rectangle as it is seen from `point`, if that is by so large a solid angle that samples by area
-    /// would be noisier.
-    [[nodiscard]] std::optional<SphericalRectangle> seen_from(const Vec3f& point) const;
+    /// Returns the rectangle as it is seen from `point`, if that may be by so large a solid angle that samples by area
+    /// are noisier.
+    [[nodiscard]] std::optional<SphericalRectangle> seen_from(const Vec3f& point) const {
+        return length_squared(point - center_) < near_squared_ ? seen_nearby(point) : std::nullopt;
+    }
     /// Returns the place that is these parts of its sides away from its corner.
     [[nodiscard]] RectanglePlace place(Vec2f along_sides) const;
 
@@ -39,10 +41,13 @@ class LightRectangle {
 
     LightRectangle() = default;
 
+    /// Answers `seen_from` for points in the sphere of `near_squared_`.
+    [[nodiscard]] std::optional<SphericalRectangle> seen_nearby(const Vec3f& point) const;
+
     Vec3f corner_{0.0f}, center_{0.0f};
     Vec3f axis_x_{0.0f}, axis_y_{0.0f}, normal_{0.0f};  ///< unit
     Vec2f size_{0.0f, 0.0f};                            ///< metres along the first two
-    float near_squared_ = 0.0f;   ///< m²; from points farther from the middle it is never seen by more
+    float near_squared_ = 0.0f;   ///< m², of distances from the middle: beyond, samples are by area
     std::array<Half, 2> halves_;  ///< the first is that of the corner
 };
 

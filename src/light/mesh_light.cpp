@@ -67,20 +67,16 @@ void MeshLight::choose_triangles(std::span<const MeshLight* const> lights, std::
         __builtin_prefetch(&light.faces_[light.faces_[choices[i].triangle].opposite]);
     });
     for_each([&](const MeshLight& light, std::size_t i) {
-        choices[i] = light.rectangle_ ? light.choose_of_rectangle(points[i], u[i])
-                                      : light.choose_of_pair(choices[i].triangle, points[i], u[i]);
+        choices[i] = light.choose(choices[i].triangle, points[i], u[i]);
     });
 }
 
-MeshLight::TriangleChoice MeshLight::choose_of_rectangle(const Vec3f& point, Vec2f u) const {
-    const std::optional<SphericalRectangle> seen = rectangle_->seen_from(point);
-    const auto [triangle, b] = rectangle_->place(seen ? seen->sample(u) : u);
-    TriangleChoice choice{triangle, 1.0f, triangle_to_square(b)};
-    if (!seen) return choice;
+MeshLight::TriangleChoice MeshLight::choose_of_rectangle(const SphericalRectangle& seen, const Vec3f& point,
+                                                         Vec2f u) const {
+    const auto [triangle, b] = rectangle_->place(seen.sample(u));
     const Face& face = faces_[triangle];
-    choice.gain =
-        gain_by_solid_angle(triangle, face.p0 + face.edge1 * b.x + face.edge2 * b.y, point, seen->solid_angle());
-    return choice;
+    const Vec3f on_light = face.p0 + face.edge1 * b.x + face.edge2 * b.y;
+    return {triangle, gain_by_solid_angle(triangle, on_light, point, seen.solid_angle()), triangle_to_square(b)};
 }
 
 float MeshLight::gain_of_rectangle(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {

@@ -95,9 +95,9 @@ class MeshLight {
         float gain;  ///< factor of the density at the point, as `gain()` says
         Vec2f u;     ///< numbers for the point on the triangle
     };
-    /// The triangle that `sample` chooses for `point` with `u_triangle`, or of a rectangle with `u`.
+    /// Returns the triangle that `sample` chooses for `point` with `u_triangle`, or of a near rectangle with `u`.
     [[nodiscard]] TriangleChoice choose_triangle(const Vec3f& point, Vec2f u_triangle, Vec2f u) const {
-        return rectangle_ ? choose_of_rectangle(point, u) : choose_of_pair(by_area_.sample(u_triangle).index, point, u);
+        return choose(by_area_.sample(u_triangle).index, point, u);
     }
     /// Chooses a triangle as `choose_triangle` does for each of many lights, with its point and its numbers, of which
     /// there have to be as many; choices of those that are null stay as they are. What a step reads has been fetched in
@@ -110,8 +110,8 @@ class MeshLight {
     [[nodiscard]] float gain(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {
         return rectangle_ ? gain_of_rectangle(triangle, on_light, point) : gain_of_pair(triangle, point);
     }
-    /// Returns whether which points are sampled depends on what they are for.
-    [[nodiscard]] bool depends_on_point() const { return has_opposites_ || rectangle_; }
+    /// Returns whether densities need the very point that samples are for, and not one along a ray up to rounding.
+    [[nodiscard]] bool needs_exact_point() const { return has_opposites_; }
     [[nodiscard]] LightTriangleFront<float> front(const TriangleChoice& choice) const {
         const Face& face = faces_[choice.triangle];
         return {face.p0, face.edge1, face.edge2, face.normal, face.clearance, area_ / choice.gain, back()};
@@ -180,7 +180,13 @@ class MeshLight {
         if (is_seen == faces_[face.opposite].is_seen_from(point)) return 1.0f;
         return is_seen ? face.gain : 0.0f;
     }
-    [[nodiscard]] TriangleChoice choose_of_rectangle(const Vec3f& point, Vec2f u) const;
+    /// Chooses for `point` where the choice by area is `triangle`.
+    [[nodiscard]] TriangleChoice choose(std::uint32_t triangle, const Vec3f& point, Vec2f u) const {
+        if (rectangle_)
+            if (const auto seen = rectangle_->seen_from(point)) return choose_of_rectangle(*seen, point, u);
+        return choose_of_pair(triangle, point, u);
+    }
+    [[nodiscard]] TriangleChoice choose_of_rectangle(const SphericalRectangle& seen, const Vec3f& point, Vec2f u) const;
     [[nodiscard]] float gain_of_rectangle(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const;
     /// Returns the gain where the rectangle is seen under `solid_angle`.
     [[nodiscard]] float gain_by_solid_angle(std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point,

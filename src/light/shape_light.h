@@ -59,8 +59,8 @@ class ShapeLight {
     /// Returns whether `radiance` of a sample is right as it is; if not, the World must evaluate it at the sampled
     /// point.
     [[nodiscard]] bool is_uniform() const { return is_uniform_; }
-    /// Returns whether which points are sampled depends on what they are for.
-    [[nodiscard]] bool depends_on_point() const { return shape_.kind() == ShapeKind::Sphere; }
+    /// Returns whether densities need the very point that samples are for, and not one along a ray up to rounding.
+    [[nodiscard]] bool needs_exact_point() const { return shape_.kind() == ShapeKind::Sphere; }
 
   private:
     /// Holds a sphere as it is seen from a point outside of it, in the space of the unit sphere.

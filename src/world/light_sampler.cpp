@@ -39,12 +39,14 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
     const float choice = probability(from, light);
+    // Where no light needs it, `from` may mean nothing.
+    const auto seen_from = [&](const auto& lamp) {
+        return lamp.needs_exact_point() ? from.position : point.position - direction * distance;
+    };
     if (const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light]))
-        return mesh->pdf_solid_angle(point.triangle, from.position, distance, cos_light) * choice;
+        return mesh->pdf_solid_angle(point.triangle, seen_from(*mesh), distance, cos_light) * choice;
     const ShapeLight& shape = std::get<ShapeLight>(data_.lights[light]);
-    // Of shapes whose samples are for any point, `from` may mean nothing.
-    const Vec3f seen_from = shape.depends_on_point() ? from.position : point.position - direction * distance;
-    return shape.pdf_solid_angle(seen_from, point.position, cos_light) * choice;
+    return shape.pdf_solid_angle(seen_from(shape), point.position, cos_light) * choice;
 }
 
 float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {

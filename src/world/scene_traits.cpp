@@ -33,10 +33,10 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
         return std::ranges::any_of(data.geometries,
                                    [&](const Geometry& g) { return is_such(data.materials[g.material]); });
     };
-    const auto depends_on_point = [](const Light& light) {
-        if (const ShapeLight* shape = std::get_if<ShapeLight>(&light)) return shape->depends_on_point();
+    const auto needs_exact_point = [](const Light& light) {
+        if (const ShapeLight* shape = std::get_if<ShapeLight>(&light)) return shape->needs_exact_point();
         const MeshLight* mesh = std::get_if<MeshLight>(&light);
-        return mesh != nullptr && mesh->depends_on_point();
+        return mesh != nullptr && mesh->needs_exact_point();
     };
     SceneTraits traits;
     traits.has_textures = !data.textures.empty();
@@ -66,7 +66,7 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.has_sampled_lights = !lights.tree().empty();
     traits.chooses_lights = lights.tree().has_choice();
     traits.chooses_lights_by_receiver =
-        lights.tree().depends_on_receiver() || std::ranges::any_of(data.lights, depends_on_point);
+        lights.tree().depends_on_receiver() || std::ranges::any_of(data.lights, needs_exact_point);
     traits.chooses_emitters = emitters.selector().size() > 1;
     traits.has_environment = data.environment != kNone;
     traits.environment_visible_to_camera = data.environment_visible;

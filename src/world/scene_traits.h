@@ -36,9 +36,9 @@ struct SceneTraits {
     bool has_delta_lights = false;    ///< some light has no extent, so that no ray meets it by chance
     bool has_sampled_lights = false;  ///< samples of the BSDF do not find all light best; `LightSampler` is for these
     bool chooses_lights = false;      ///< there is more than one light for `LightSampler` to choose from
-    bool chooses_lights_by_receiver = false;  ///< the choice of a light, or of a place on it, depends on what it is for
-    bool chooses_emitters = false;            ///< there is more than one light for `LightEmitter` to choose from
-    bool has_environment = false;             ///< there is light from infinitely far away in every direction
+    bool chooses_lights_by_receiver = false;     ///< the choice of a light or of a place on it needs the receiver
+    bool chooses_emitters = false;               ///< there is more than one light for `LightEmitter` to choose from
+    bool has_environment = false;                ///< there is light from infinitely far away in every direction
     bool environment_visible_to_camera = false;  ///< camera rays that meet nothing show the environment
 };
 
