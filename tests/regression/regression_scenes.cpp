@@ -56,9 +56,9 @@ constexpr RegressionScene kRegressionScenes[] = {
 // For the noise of integrators: what path tracing makes of most of them in minutes is too noisy for blocks of pixels to
 // tell anything, and their materials and shapes are in the others.
 constexpr std::string_view kWithoutReference[] = {
-    "ajar-door",    "caustic-ball",   "caustic-glass", "caustic-glasses", "caustic-mirror",
-    "caustic-pool", "caustic-prism",  "caustic-ring",  "diamond",         "glossy-interior",
-    "many-lights",  "torus-in-glass", "veach-bidir",
+    "ajar-door",       "caustic-ball",  "caustic-glass", "caustic-glasses", "caustic-mirror",
+    "caustic-pool",    "caustic-prism", "caustic-ring",  "diamond",         "fog",
+    "glossy-interior", "many-lights",   "radiometry",    "torus-in-glass",  "veach-bidir",
 };
 
 }  // namespace

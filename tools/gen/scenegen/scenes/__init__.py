@@ -1,8 +1,8 @@
 """One module per scene. To add another: a module with `build()` that returns a GeneratedScene, and its line here."""
 
 from . import (ajar_door, caustic_ball, caustic_glass, caustic_glasses, caustic_mirror, caustic_pool, caustic_prism,
-               caustic_ring, cornell_box, cornell_glass, diamond, furnace, glossy_interior, instances, many_lights,
-               material_grid, sun_and_sky, torus_in_glass, veach_bidir, veach_mis)
+               caustic_ring, cornell_box, cornell_glass, diamond, fog, furnace, glossy_interior, instances, many_lights,
+               material_grid, radiometry, sun_and_sky, torus_in_glass, veach_bidir, veach_mis)
 
 SCENES = {
     "cornell-box": cornell_box.build,
@@ -25,4 +25,6 @@ SCENES = {
     "torus-in-glass": torus_in_glass.build,
     "diamond": diamond.build,
     "caustic-glasses": caustic_glasses.build,
+    "radiometry": radiometry.build,
+    "fog": fog.build,
 }
