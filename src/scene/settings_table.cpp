@@ -479,6 +479,7 @@ constexpr std::array kRows{
             .place = at([](auto& s) -> auto& { return s.integrator.lengths.min_depth; })},
     Setting{
         .pointer = "/integrator/roulette_depth",
+        .option = "--roulette-depth",
         .type = WholeNumber{1, kMostInt},
         .decides = Decides::Samples,
         .unit = "rays",

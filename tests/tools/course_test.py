@@ -46,6 +46,21 @@ class CourseTest(unittest.TestCase):
         self.assertEqual(self.run_step(step.format("5.55")), [])
         self.assertIn("is 5.5, but the page says 5.7", self.run_step(step.format("5.7"))[0])
 
+    def test_places_are_shares_of_the_image(self):
+        figures = tool.Figures(Path("."))
+        figures.read_channels = lambda path: (160, 80, None, None)
+        # Red is the column, green the row, blue nothing.
+        red = [column for _ in range(80) for column in range(160)]
+        green = [row for row in range(80) for _ in range(160)]
+        figures.images["a.exr", ""] = red + green + [0] * (160 * 80)
+        self.assertAlmostEqual(figures.at("a.exr", 0.25, 0.5), (39.5 + 39.5) / 3)
+        self.assertAlmostEqual(figures.at("a.exr", 0.75, 0.25), (119.5 + 19.5) / 3)
+
+    def test_rays_are_those_of_the_render(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "a.json").write_text('{"rays": {"camera": 3, "total": 7}}', encoding="utf-8")
+            self.assertEqual(tool.Figures(Path(name)).value('rays("a.exr") / 2'), 3.5)
+
     def test_a_command_that_fails_is_told(self):
         self.assertIn("ended with 3", self.run_step("    etendue render x\n", "#!/bin/sh\nexit 3\n")[0])
 
