@@ -310,6 +310,7 @@ TEST_F(TextureFiltering, ImagesThatEndEarlyAreShownAsFarAsTheyGo) {
     SceneDesc scene = empty_scene();
     Random random(3);
     std::vector<std::array<int, 4>> texels;
+    texels.reserve(128 * 128);
     for (int i = 0; i < 128 * 128; ++i) texels.push_back({static_cast<int>(255.0f * random.next()), 0, 0, 255});
     MaterialDesc material;
     material.base_color_texture.texture = add_texture(scene, png_, 128, texels);
