@@ -15,6 +15,58 @@ Vec3f facing(const Vec3f& w, const Vec3f& wo) {
     return wo.z < 0.0f ? Vec3f(w.x, w.y, -w.z) : w;
 }
 
+/// Says what of the light that meets diffuse transmission from the side of the higher index passes. The rest stays
+/// there: radiance is higher by the squared index on that side, and what refraction has let in must not leave
+/// amplified.
+struct DenseSide {
+    float passes = 1.0f;
+    bool is_inside = true;
+
+    explicit DenseSide(const DielectricBody& body) {
+        const float ior = std::visit([](const auto& lobe) { return lobe.ior; }, body.interface);
+        is_inside = ior > 1.0f;
+        passes = is_inside ? 1.0f / (ior * ior) : ior * ior;
+    }
+    [[nodiscard]] bool has(const Vec3f& w) const { return (w.z < 0.0f) == is_inside; }
+};
+
+Vec3f across(const Vec3f& w) {
+    return {w.x, w.y, -w.z};
+}
+
+/// Evaluates the share of a body that is no interface.
+BsdfParts evaluate_opaque(const DielectricBody& body, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
+    BsdfParts value = body.opaque.evaluate_parts(facing(wo, wo), facing(wi, wo));
+    if (body.opaque.diffuse_transmission == 0.0f) return value;
+    const DenseSide dense(body);
+    if (dense.has(wo) && dense.has(wi)) {
+        const BsdfParts held = body.opaque.evaluate_parts(facing(wo, wo), facing(across(wi), wo));
+        value.diffuse += held.diffuse * (1.0f - dense.passes);
+        value.pdf_solid_angle += held.pdf_solid_angle * (1.0f - dense.passes);
+    } else if (dense.has(wo) != dense.has(wi)) {
+        const Vec3f& from = mode == TransportMode::Radiance ? wi : wo;
+        if (dense.has(from)) value.diffuse *= dense.passes;
+        if (dense.has(wo)) value.pdf_solid_angle *= dense.passes;
+    }
+    return value;
+}
+
+/// Samples the share of a body that is no interface; only the direction counts, and whether it is a delta's.
+BsdfSample sample_opaque(const DielectricBody& body, const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) {
+    const DenseSide dense(body);
+    const float passes = body.opaque.diffuse_transmission > 0.0f && dense.has(wo) ? dense.passes : 1.0f;
+    const bool holds = u_lobe >= passes;
+    const float u_rest =
+        std::clamp(holds ? (u_lobe - passes) / (1.0f - passes) : u_lobe / passes, 0.0f, kOneMinusEpsilon);
+    BsdfSample sample = body.opaque.sample(facing(wo, wo), u_rest, u, mode);
+    sample.wi = facing(sample.wi, wo);
+    if (holds && sample.is_transmission) {
+        sample.wi = across(sample.wi);
+        sample.is_transmission = false;
+    }
+    return sample;
+}
+
 }  // namespace
 
 std::variant<SmoothDielectric, RoughDielectric> make_interface(float ior, Vec2f alpha, const Rgb& tint,
@@ -38,7 +90,7 @@ BsdfParts DielectricBody::evaluate_parts(const Vec3f& wo, const Vec3f& wi, Trans
     BsdfParts value;
     if (interface_share < 1.0f) {
         const float share = 1.0f - interface_share;
-        value = opaque.evaluate_parts(facing(wo, wo), facing(wi, wo));
+        value = evaluate_opaque(*this, wo, wi, mode);
         value.diffuse *= share;
         value.specular *= share;
         value.pdf_solid_angle *= share;
@@ -62,8 +114,7 @@ BsdfSample DielectricBody::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
     if (choose_interface) {
         sample = std::visit([&](const auto& lobe) { return lobe.sample(wo, u_rest, u, mode); }, interface);
     } else {
-        sample = opaque.sample(facing(wo, wo), u_rest, u, mode);
-        sample.wi = facing(sample.wi, wo);
+        sample = sample_opaque(*this, wo, u_rest, u, mode);
     }
     // The share is both part of the value and the chance of the choice, and cancels from a delta's weight.
     if (sample.is_delta) return sample;

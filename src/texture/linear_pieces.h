@@ -9,12 +9,13 @@
 
 namespace etendue {
 
-/// Integers under a curve become 16-bit floats, everything else keeps its depth; what is not finite becomes its
-/// `finite_value`. The file's own mip levels are shown if they reach 1 × 1.
+/// Integers under a curve or times alpha become 16-bit floats, everything else keeps its depth; what is not finite
+/// becomes its `finite_value`. The file's own mip levels are shown if they reach 1 × 1.
 class LinearPieces final : public ImagePieces {
   public:
-    /// Bytes in memory must outlive it. Throws IoError as ImageReader does.
-    LinearPieces(const ImageSource& source, Encoding encoding);
+    /// Multiplies colours by alpha if `times_alpha`, which asks for an image that has one. Bytes in memory must outlive
+    /// it. Throws IoError as ImageReader does.
+    LinearPieces(const ImageSource& source, Encoding encoding, bool times_alpha = false);
 
     [[nodiscard]] const ImageInfo& info() const override { return info_; }
     [[nodiscard]] std::span<const ImageLevel> levels() const override { return levels_; }
@@ -24,9 +25,12 @@ class LinearPieces final : public ImagePieces {
 
   private:
     void linearize(std::span<float> values) const;
+    /// Takes the curve off colours.
+    void decode(std::span<float> values) const;
 
     ImageReader reader_;
     Encoding encoding_;
+    bool times_alpha_;
     ImageInfo info_;
     std::span<const ImageLevel> levels_;
 };

@@ -90,6 +90,29 @@ ImageF halve(int width, int height, int channels, const Fetch& fetch) {
     return half;
 }
 
+ImageF halve(const ImageF& image) {
+    return halve(image.width, image.height, image.channels,
+                 [&](int x, int y, int c) { return image.pixel(x, y)[static_cast<std::size_t>(c)]; });
+}
+
+/// Divides the colours of mip levels, each times its alpha, by that; where alpha is nothing, the next level's stand in.
+void divide_by_alpha(std::span<ImageF> levels) {
+    const ImageF* coarser = nullptr;
+    for (auto level = levels.rbegin(); level != levels.rend(); coarser = &*level++)
+        for (int y = 0; y < level->height; ++y)
+            for (int x = 0; x < level->width; ++x) {
+                const auto texel = level->pixel(x, y);
+                const auto colors = texel.first(texel.size() - 1);
+                if (texel.back() > 0.0f)
+                    for (float& color : colors) color /= texel.back();
+                else if (coarser != nullptr)
+                    std::ranges::copy(
+                        coarser->pixel(std::min(x / 2, coarser->width - 1), std::min(y / 2, coarser->height - 1))
+                            .first(colors.size()),
+                        colors.begin());
+            }
+}
+
 /// `a` where both are equal, without rounding.
 Texel mix(const Texel& a, const Texel& b, float t) {
     return {lerp(a.rgb, b.rgb, t), a.alpha + (b.alpha - a.alpha) * t};
@@ -124,7 +147,7 @@ MipChain::MipChain(std::vector<NativeImage> levels, Encoding encoding, MipLevels
         [&]<typename T>(const Image<T>& image) {
             channels_ = image.channels;
             std::vector<T> values = take_levels<T>(levels);
-            if (wanted == MipLevels::All) add_levels(values);
+            if (wanted != MipLevels::AsGiven) add_levels(values, wanted == MipLevels::AllByAlpha);
             values_ = std::move(values);
         },
         levels.front());
@@ -149,27 +172,38 @@ std::vector<T> MipChain::take_levels(std::vector<NativeImage>& images) {
 }
 
 template <typename T>
-void MipChain::add_levels(std::vector<T>& values) {
-    values.reserve(static_cast<std::size_t>(mip_texel_count(width(), height())) * static_cast<std::size_t>(channels_));
+void MipChain::add_levels(std::vector<T>& values, bool by_alpha) {
+    const int last_channel = channels_ - 1;
+    by_alpha = by_alpha && is_alpha(last_channel, channels_);
+    const auto channels = static_cast<std::size_t>(channels_);
+    values.reserve(static_cast<std::size_t>(mip_texel_count(width(), height())) * channels);
     const auto curved = [&](int c) { return encoding_ == Encoding::Srgb && !is_alpha(c, channels_); };
     const Level last = levels_.back();
     const auto stored = [&](int x, int y, int c) {
         const std::size_t texel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(last.width) + static_cast<std::size_t>(x);
-        const std::size_t first = (last.first + texel) * static_cast<std::size_t>(channels_);
-        return decode(values[first + static_cast<std::size_t>(c)], curved(c));
+        const T* const first = &values[(last.first + texel) * channels];
+        const float value = decode(first[c], curved(c));
+        if (!by_alpha) return value;
+        const float alpha = std::clamp(decode(first[last_channel], false), 0.0f, 1.0f);
+        return c == last_channel ? alpha : value * alpha;
     };
-    ImageF current;  // not rounded, so that errors do not add up from level to level
-    const auto averaged = [&](int x, int y, int c) { return current.pixel(x, y)[static_cast<std::size_t>(c)]; };
-    const int level_count = mip_level_count(width(), height());
-    while (static_cast<int>(levels_.size()) < level_count) {
-        current = current.pixels.empty() ? halve(last.width, last.height, channels_, stored)
-                                         : halve(current.width, current.height, channels_, averaged);
-        levels_.push_back({current.width, current.height, values.size() / static_cast<std::size_t>(channels_)});
-        for (std::size_t i = 0; i < current.pixels.size(); ++i)
-            values.push_back(
-                encode<T>(current.pixels[i], curved(static_cast<int>(i % static_cast<std::size_t>(channels_)))));
+    const auto append = [&](const ImageF& level) {
+        levels_.push_back({level.width, level.height, values.size() / channels});
+        for (std::size_t i = 0; i < level.pixels.size(); ++i)
+            values.push_back(encode<T>(level.pixels[i], curved(static_cast<int>(i % channels))));
+    };
+    std::vector<ImageF> averages;  // not rounded, so that errors do not add up from level to level
+    for (int missing = mip_level_count(width(), height()) - level_count(); missing > 0; --missing) {
+        averages.push_back(averages.empty() ? halve(last.width, last.height, channels_, stored)
+                                            : halve(averages.back()));
+        if (by_alpha) continue;
+        append(averages.back());
+        averages.erase(averages.begin(), averages.end() - 1);
     }
+    if (!by_alpha) return;
+    divide_by_alpha(averages);
+    for (const ImageF& level : averages) append(level);
 }
 
 template <typename T>
@@ -289,8 +323,7 @@ void MipChain::keep_slopes(bool interpolated) {
             for (const float value : {covariance.xx, covariance.xy, covariance.yy})
                 slope_covariances_.push_back(Float16(value));
         }
-        current = halve(current.width, current.height, current.channels,
-                        [&](int x, int y, int c) { return current.pixel(x, y)[static_cast<std::size_t>(c)]; });
+        current = halve(current);
     }
 }
 

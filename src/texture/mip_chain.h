@@ -23,14 +23,17 @@ namespace etendue {
 /// Bytes that a normal map of this size takes to keep its slopes' covariances.
 [[nodiscard]] std::uint64_t slope_covariance_bytes(int width, int height);
 
-/// Which levels a chain has.
-enum class MipLevels { All, AsGiven };
+/// Says which levels a chain has, and how those that are not given are averaged.
+enum class MipLevels {
+    All,         ///< over the texels' areas
+    AllByAlpha,  ///< as All, but colours with alpha as their weight; what has none takes those of the coarser level
+    AsGiven,     ///< only those that are given
+};
 
 class MipChain {
   public:
     /// `levels` are the image and, if they are known, some of its mip levels, all of one depth; not empty. The others
-    /// are averaged from them over the texels' areas, in linear light, and rounded to the image's depth, if all are
-    /// wanted.
+    /// are averaged from them in linear light and rounded to the image's depth, if they are wanted.
     MipChain(std::vector<NativeImage> levels, Encoding encoding, MipLevels wanted = MipLevels::All);
 
     /// Value at `uv`, whose wraps are as `options` say, between the two levels next to `level` >= 0: bilinear in both,
@@ -84,7 +87,7 @@ class MipChain {
     template <typename T>
     std::vector<T> take_levels(std::vector<NativeImage>& images);
     template <typename T>
-    void add_levels(std::vector<T>& values);
+    void add_levels(std::vector<T>& values, bool by_alpha);
     /// Calls `use(values, channels)` with the values as they are stored and the number of channels as a constant.
     template <typename Use>
     auto with_texels(const Use& use) const;

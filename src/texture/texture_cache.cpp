@@ -76,6 +76,11 @@ bool CachedImage::look_up(const TileImage& image, Vec2f uv, float level, bool ne
 
 Texel CachedImage::sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
     std::array<float, 4> values{};
+    if (level > 0.0f && times_alpha_.handle != nullptr) {
+        if (!look_up(times_alpha_, uv, level, nearest, options, values.data())) return {Rgb(), 0.0f};
+        const Texel product = make_texel(texels_.channels, values.data());
+        if (product.alpha > 0.0f) return {product.rgb * (1.0f / product.alpha), product.alpha};
+    }
     if (!look_up(texels_, uv, level, nearest, options, values.data())) return {Rgb(), 0.0f};
     return make_texel(texels_.channels, values.data());
 }
@@ -104,6 +109,17 @@ CachedImage TextureCache::add(Source source, Encoding encoding) {
     image.texels_ = impl_->tiles->add([source = std::move(source), encoding] {
         return std::make_unique<LinearPieces>(to_image_source(source), encoding);
     });
+    return image;
+}
+
+CachedImage TextureCache::add_by_alpha(const Source& source, Encoding encoding) {
+    CachedImage image = add(source, encoding);
+    const int channels = image.texels_.channels;
+    if (is_alpha(channels - 1, channels))
+        image.times_alpha_ = impl_->tiles->add([source, encoding] {
+            constexpr bool kTimesAlpha = true;
+            return std::make_unique<LinearPieces>(to_image_source(source), encoding, kTimesAlpha);
+        });
     return image;
 }
 

@@ -48,7 +48,8 @@ class CachedImage {
 
     const TextureCache* cache_ = nullptr;
     TileImage texels_;
-    TileImage slopes_;  ///< SlopePieces, of a normal map
+    TileImage slopes_;       ///< SlopePieces, of a normal map
+    TileImage times_alpha_;  ///< holds colours times alpha, if means are taken by alpha
 };
 
 class TextureCache {
@@ -64,6 +65,8 @@ class TextureCache {
 
     /// Opens the image. Throws IoError if its header is broken. Not while look-ups are made.
     [[nodiscard]] CachedImage add(Source source, Encoding encoding);
+    /// Adds an image whose colours, where it is minified, are means with alpha as their weight.
+    [[nodiscard]] CachedImage add_by_alpha(const Source& source, Encoding encoding);
     /// Adds a normal map, whose slopes are kept as MipChain keeps them.
     [[nodiscard]] CachedImage add_normal_map(const Source& source, bool interpolated);
 

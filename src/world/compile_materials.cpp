@@ -87,10 +87,10 @@ GltfModel compile_subsurface(const SubsurfaceDesc& desc) {
     return model;
 }
 
-GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
+GltfModel compile_gltf(const MaterialDesc& desc, TextureUse base_use, TextureCompiler& textures) {
     GltfModel model;
     model.base_color = desc.base_color;
-    model.base_color_texture = textures.slot(desc.base_color_texture, TextureUse::Color);
+    model.base_color_texture = textures.slot(desc.base_color_texture, base_use);
     model.metallic = desc.metallic;
     model.roughness = desc.roughness;
     model.metallic_roughness_texture = textures.slot(desc.metallic_roughness_texture, TextureUse::Data);
@@ -110,11 +110,10 @@ GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
 }
 
 void compile_alpha(const MaterialDesc& desc, TextureCompiler& textures, Material& material) {
-    if (desc.alpha_mode == AlphaMode::Opaque) return;
     material.alpha_test = desc.alpha_mode == AlphaMode::Mask ? AlphaTest::Mask : AlphaTest::Blend;
     material.alpha_cutoff = desc.alpha_cutoff;
     material.alpha_factor = desc.base_alpha;
-    material.alpha_texture = textures.slot(desc.base_color_texture, TextureUse::Color);
+    material.alpha_texture = textures.slot(desc.base_color_texture, TextureUse::ColorByAlpha);
 }
 
 Beam compile_beam(const BeamDesc& desc) {
@@ -131,6 +130,8 @@ Beam compile_beam(const BeamDesc& desc) {
 
 Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec709, TextureCompiler& textures) {
     Material material;
+    // Rays that a filter lets through would not know that they are in a body; what passes its surface is transmission.
+    const bool has_alpha = desc.alpha_mode != AlphaMode::Opaque && !compile_filling(desc, from_rec709);
     if (const auto* conductor = std::get_if<ConductorDesc>(&desc.override_model))
         material.model = compile_conductor(*conductor, from_rec709);
     else if (const auto* dielectric = std::get_if<DielectricDesc>(&desc.override_model))
@@ -140,11 +141,10 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     else if (const auto* subsurface = std::get_if<SubsurfaceDesc>(&desc.override_model))
         material.model = compile_subsurface(*subsurface);
     else
-        material.model = compile_gltf(desc, textures);
+        material.model = compile_gltf(desc, has_alpha ? TextureUse::ColorByAlpha : TextureUse::Color, textures);
 
     material.unlit = desc.unlit && std::holds_alternative<std::monostate>(desc.override_model);
-    // Rays that a filter lets through would not know that they are in a body; what passes its surface is transmission.
-    if (!compile_filling(desc, from_rec709)) compile_alpha(desc, textures, material);
+    if (has_alpha) compile_alpha(desc, textures, material);
     if (const auto* model = std::get_if<GltfModel>(&material.model))
         material.is_pane = !material.unlit && !model->refracts && model->transmission > 0.0f &&
                            model->metallic < 1.0f && model->roughness * model->roughness < kSmoothAlpha;

@@ -19,8 +19,13 @@
 
 namespace etendue {
 
-/// How a texture is used, which decides how it is decoded.
-enum class TextureUse { Color, Data, NormalMap };
+/// Says how a texture is used, which decides how it is decoded and averaged.
+enum class TextureUse {
+    Color,
+    ColorByAlpha,  ///< colour that shows as far as its alpha says
+    Data,
+    NormalMap,
+};
 
 /// Hands out indices of textures and loads each once per use.
 class TextureCompiler {

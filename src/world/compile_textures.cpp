@@ -50,7 +50,8 @@ MipFilter to_mip_filter(TextureMipFilter filter) {
 
 /// Floats are linear whatever they are used for.
 Encoding encoding_of(TextureUse use, const ImageInfo& info) {
-    return use == TextureUse::Color && !info.is_float ? Encoding::Srgb : Encoding::Linear;
+    const bool is_color = use == TextureUse::Color || use == TextureUse::ColorByAlpha;
+    return is_color && !info.is_float ? Encoding::Srgb : Encoding::Linear;
 }
 
 TextureOptions options_of(const TextureDesc& desc, Encoding encoding) {
@@ -279,7 +280,8 @@ TextureCompiler::Loaded TextureCompiler::load(const Request& request, const Imag
     }
     const RepairedValues repaired = make_finite(levels.front());
     const Encoding encoding = encoding_of(request.second, info);
-    MipChain texels(std::move(levels), encoding);
+    MipChain texels(std::move(levels), encoding,
+                    request.second == TextureUse::ColorByAlpha ? MipLevels::AllByAlpha : MipLevels::All);
     const TextureOptions options = options_of(scene_.textures[request.first], encoding);
     if (request.second == TextureUse::NormalMap) texels.keep_slopes(!options.nearest);
     return {Texture(std::move(texels), options), repaired, whole_rows};
@@ -336,9 +338,16 @@ void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_
         const Encoding encoding = encoding_of(requests_[i].second, infos[i]);
         const TextureOptions options = options_of(scene_.textures[requests_[i].first], encoding);
         const CachedImage cached = read_or_blame(image, [&] {
-            return requests_[i].second == TextureUse::NormalMap
-                       ? data.texture_cache->add_normal_map(source, !options.nearest)
-                       : data.texture_cache->add(source, encoding);
+            switch (requests_[i].second) {
+                case TextureUse::NormalMap:
+                    return data.texture_cache->add_normal_map(source, !options.nearest);
+                case TextureUse::ColorByAlpha:
+                    return data.texture_cache->add_by_alpha(source, encoding);
+                case TextureUse::Color:
+                case TextureUse::Data:
+                    break;
+            }
+            return data.texture_cache->add(source, encoding);
         });
         data.textures.emplace_back(cached, options);
     }

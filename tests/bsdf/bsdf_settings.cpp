@@ -141,6 +141,11 @@ void add_bodies(std::vector<BsdfSetting>& settings, TransportMode mode, const ch
     settings.push_back({fmt::format("smooth film {}", mode_name), smooth, mode});
     settings.push_back(
         {fmt::format("smooth, partly opaque {}", mode_name), DielectricBody{smooth, kPlastic, 0.5f}, mode});
+    MetallicRoughness leaf = kPlastic;
+    leaf.diffuse_transmission = 0.7f;
+    for (const float ior : {0.7f, 1.5f})
+        settings.push_back({fmt::format("leaf of glass {} {}", ior, mode_name),
+                            DielectricBody{RoughDielectric::make(ior, 0.3f), leaf, 0.4f}, mode});
     settings.push_back({fmt::format("coated body {}", mode_name),
                         LayeredSurface::make(DielectricBody{rough, kPlastic, 0.7f}, {}, ClearCoat{0.7f, 0.1f}), mode});
     settings.push_back({fmt::format("varnished velvet glass {}", mode_name),

@@ -84,6 +84,25 @@ TEST(MipChain, GivenLevelsAreKeptAndTheOthersAreMadeFromThem) {
     EXPECT_EQ(chain.bytes(), 21u);
 }
 
+// Each half of the image has one texel that shows, dark beside bright or the other way round; the colours of the others
+// must not be seen. Where nothing shows in half of a level, the level below says what colour surrounds it.
+TEST(MipChain, ColoursByAlphaAreOfWhatShows) {
+    const std::vector<std::uint8_t> dark{60, 255}, bright{200, 255}, hidden{255, 0}, black{0, 0};
+    std::vector<std::uint8_t> texels;
+    for (const auto& texel : {dark, hidden, black, black, hidden, bright, black, black})
+        texels.insert(texels.end(), texel.begin(), texel.end());
+    const double mean = 0.5 * (srgb_to_linear(60) + srgb_to_linear(200));
+    std::vector<NativeImage> levels{bytes(4, 2, 2, texels)};
+    const MipChain chain(std::move(levels), Encoding::Srgb, MipLevels::AllByAlpha);
+    const double byte = 2.3 / 255.0;
+    EXPECT_NEAR(chain.sample({0.25f, 0.5f}, 1.0f, true, {}).rgb.g, mean, byte);
+    EXPECT_NEAR(chain.sample({0.25f, 0.5f}, 1.0f, true, {}).alpha, 0.5, 1.0 / 255.0);
+    EXPECT_NEAR(chain.sample({0.75f, 0.5f}, 1.0f, true, {}).rgb.g, mean, byte);
+    EXPECT_EQ(chain.sample({0.75f, 0.5f}, 1.0f, true, {}).alpha, 0.0f);
+    EXPECT_NEAR(chain.sample({0.5f, 0.5f}, 2.0f, true, {}).rgb.g, mean, byte);
+    EXPECT_EQ(chain.sample({0.3f, 0.1f}, 0.0f, true, {}).rgb.g, 1.0f) << "the image itself stays as it is";
+}
+
 TEST(MipChain, WithoutLevelsThereIsOnlyTheImage) {
     std::vector<NativeImage> levels{bytes(2, 1, 1, {0, 255})};
     const MipChain chain(std::move(levels), Encoding::Linear, MipLevels::AsGiven);

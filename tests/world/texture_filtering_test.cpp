@@ -160,6 +160,28 @@ TEST_F(TextureFiltering, ColoursAreAveragedOverTheFootprint) {
     EXPECT_NEAR(base_of(world, kBlack, 2.0f * kTexel), 0.5f, 5e-3f);
 }
 
+// Of the checkerboard, a cut-out shows the white squares alone, a body's surface all of it.
+TEST_F(TextureFiltering, ColoursOfCutOutsAreThoseOfWhatShows) {
+    MaterialDesc material;
+    material.metallic = 0.0f;
+    material.base_color_texture.texture = {0};
+    material.alpha_mode = AlphaMode::Mask;
+    SceneDesc scene = checkered(material);
+    scene.settings.texture_memory = 0;
+    int seen = 0;
+    for (const World& world : {compile(checkered(material)), compile(scene)})
+        for (const float x : {kWhite, kBlack}) {
+            if (!intersect(world, {.origin = {x, 0.01f, 0}, .direction = {0, 0, -1}}).valid()) continue;
+            ++seen;
+            for (const float width : {0.2f, 1.0f}) EXPECT_NEAR(base_of(world, x, width), 1.0f, 0.01f);
+        }
+    EXPECT_EQ(seen, 2);
+    material.alpha_mode = AlphaMode::Blend;
+    material.metallic = material.transmission = 1.0f;
+    material.volume.closed = true;
+    EXPECT_NEAR(base_of(compile(checkered(material)), kWhite, 1.0f), 0.5f, 0.01f);
+}
+
 TEST_F(TextureFiltering, TextureTransformsScaleTheFootprint) {
     MaterialDesc material = textured_material();
     material.base_color_texture.transform.scale = {16.0f, 16.0f};
@@ -288,6 +310,7 @@ TEST_F(TextureFiltering, ImagesThatEndEarlyAreShownAsFarAsTheyGo) {
     SceneDesc scene = empty_scene();
     Random random(3);
     std::vector<std::array<int, 4>> texels;
+    texels.reserve(128 * 128);
     for (int i = 0; i < 128 * 128; ++i) texels.push_back({static_cast<int>(255.0f * random.next()), 0, 0, 255});
     MaterialDesc material;
     material.base_color_texture.texture = add_texture(scene, png_, 128, texels);
