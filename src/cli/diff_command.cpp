@@ -396,8 +396,7 @@ void add_diff_options(CLI::App& command, DiffArguments& arguments) {
             "HDR-FLIP: exposures in stops (default: chosen by the reference; the same for images that are to be "
             "ranked)")
         ->type_name("START:STOP");
-    command.add_option("--threads", arguments.threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
+    add_threads_option(command, arguments.threads);
     command.add_flag("--json", arguments.json, "Print JSON on stdout");
     command.add_flag("--quiet", arguments.quiet, "No report and no warnings; errors only");
 }
