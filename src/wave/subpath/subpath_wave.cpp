@@ -20,7 +20,7 @@ void find_light(LightFinder& finder, const SubpathState& state, const Ray& ray, 
     if (!hit.valid()) return finder.on_escape(state, ray.direction);
     if (path.point.material->emits && !(is_first && finder.finds_emission(hit)))
         finder.on_emitter(state, path.point, ray.direction, path.arrived);
-    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden)) finder.on_unlit(state, path.point);
+    if (path.point.material->unlit && !(path.crossing && path.crossing->is_covered)) finder.on_unlit(state, path.point);
 }
 
 }  // namespace
