@@ -6,6 +6,7 @@
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
 #include "core/standard_output.h"
+#include "picture/description_text.h"
 #include "picture/exr_files.h"
 #include "picture/image_description.h"
 #include "picture/output_paths.h"

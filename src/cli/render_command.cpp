@@ -8,7 +8,7 @@
 #include "live/render_page.h"
 #include "live/tev_viewer.h"
 #include "loader/files.h"
-#include "picture/aov_setup.h"
+#include "picture/aov_sources.h"
 #include "picture/output_paths.h"
 #include "session/image_job.h"
 #include "session/interrupt.h"
