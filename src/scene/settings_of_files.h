@@ -1,4 +1,4 @@
-// Rows of the table of settings: layers, what files tell, and colours.
+// Rows of the table of settings: layers, colours, and what files tell.
 #pragma once
 
 #include "scene/setting_place.h"
@@ -31,7 +31,7 @@ inline constexpr SettingPlace kAovsPlace{[](const RenderSettings& settings) -> S
                                                      settings.aovs.push_back(std::move(*aov));
                                          }};
 
-inline constexpr std::array kFileSettings{
+inline constexpr std::array kLayerSettings{
     Setting{.pointer = "/aovs",
             .option = "--aov",
             .type = Texts{{kAovForm, "^[A-Za-z0-9_-]{1,100}(=.+)?(:[0-9]{1,9})?(:half|:float)?$", parses<parse_aov>}},
@@ -70,22 +70,6 @@ inline constexpr std::array kFileSettings{
                     "square root",
             .page = "aovs.md",
             .place = named_at<kFalloffNames>([](auto& s) -> auto& { return s.mist.falloff; })},
-    Setting{.pointer = "/metadata/owner",
-            .option = "--owner",
-            .type = Name{},
-            .decides = Decides::Display,
-            .default_text = "none",
-            .help = "Whose image it is, as the EXR tells it (`owner`)",
-            .page = "colour.md#what-an-exr-says-about-itself",
-            .place = at([](auto& s) -> auto& { return s.metadata.owner; })},
-    Setting{.pointer = "/metadata/comments",
-            .option = "--comments",
-            .type = Name{},
-            .decides = Decides::Display,
-            .default_text = "none",
-            .help = "Any text that the EXR is to tell (`comments`)",
-            .page = "colour.md#what-an-exr-says-about-itself",
-            .place = at([](auto& s) -> auto& { return s.metadata.comments; })},
 };
 
 inline constexpr std::array kColourSettings{
@@ -146,6 +130,25 @@ inline constexpr std::array kColourSettings{
             .help = "Write the EXR as SMPTE ST 2065-4 asks: in ACES2065-1, 16-bit floats, not compressed",
             .page = "colour.md#aces-containers-smpte-st-2065-4",
             .place = at([](auto& s) -> auto& { return s.color.aces_container; })},
+};
+
+inline constexpr std::array kMetadataSettings{
+    Setting{.pointer = "/metadata/owner",
+            .option = "--owner",
+            .type = Name{},
+            .decides = Decides::Display,
+            .default_text = "none",
+            .help = "Whose image it is, as the EXR tells it (`owner`)",
+            .page = "colour.md#what-an-exr-says-about-itself",
+            .place = at([](auto& s) -> auto& { return s.metadata.owner; })},
+    Setting{.pointer = "/metadata/comments",
+            .option = "--comments",
+            .type = Name{},
+            .decides = Decides::Display,
+            .default_text = "none",
+            .help = "Any text that the EXR is to tell (`comments`)",
+            .page = "colour.md#what-an-exr-says-about-itself",
+            .place = at([](auto& s) -> auto& { return s.metadata.comments; })},
 };
 
 }  // namespace etendue

@@ -31,8 +31,8 @@ constexpr std::array<Setting, (N + ...)> joined(const std::array<Setting, N>&...
 constexpr auto kRows =
     joined(in_group(SettingGroup::Transport, kTransportSettings), in_group(SettingGroup::Samples, kSampleSettings),
            in_group(SettingGroup::View, kViewSettings), in_group(SettingGroup::Scene, kSceneSettings),
-           in_group(SettingGroup::Animation, kAnimationSettings), in_group(SettingGroup::Files, kFileSettings),
-           in_group(SettingGroup::Colour, kColourSettings));
+           in_group(SettingGroup::Animation, kAnimationSettings), in_group(SettingGroup::Files, kLayerSettings),
+           in_group(SettingGroup::Colour, kColourSettings), in_group(SettingGroup::Files, kMetadataSettings));
 
 }  // namespace
 
