@@ -3,13 +3,13 @@
 #pragma once
 
 #include "batch/batch_attempt.h"
-#include "batch/batch_books.h"
 #include "batch/batch_jobs.h"
 #include "batch/batch_ledger.h"
 #include "batch/batch_lock.h"
 #include "batch/batch_options.h"
 #include "batch/batch_plan.h"
 #include "batch/batch_progress.h"
+#include "batch/batch_record.h"
 #include "batch/batch_watcher.h"
 #include "core/parallel.h"
 #include "report/batch_report.h"
@@ -19,7 +19,6 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -42,14 +41,12 @@ class BatchRunner {
     /// interrupted. Writes ledger and reports as it goes on.
     void run();
 
-    /// Ends the batch before anything is made.
-    void abandon();
     /// Records that every stale image has failed, as its plan says, and ends the batch.
     void fail_all();
 
-    [[nodiscard]] const BatchReport& report() const { return report_; }
+    [[nodiscard]] const BatchReport& report() const { return record_.report(); }
     /// Returns false if something could not be written into the ledger or the reports; it was said when it happened.
-    [[nodiscard]] bool has_kept_books() const { return books_.are_kept(); }
+    [[nodiscard]] bool has_kept_books() const { return record_.is_kept(); }
 
   private:
     /// Removes the checkpoints of an image that is up to date: a render that was killed after its image was complete
@@ -61,6 +58,8 @@ class BatchRunner {
         Over,       ///< it is made, or cannot be
         Elsewhere,  ///< another process has it now
     };
+    /// Makes the images `waiting`, until all are made here or elsewhere, or the batch is interrupted.
+    void make_images(std::deque<std::size_t> waiting);
     /// Begins waiting images for as long as there is room for them; `held` gets those that other processes have.
     void begin_images(std::deque<std::size_t>& waiting, std::vector<std::size_t>& held);
     /// Returns whether the memory that is left holds one more image; if not, says so once.
@@ -73,8 +72,6 @@ class BatchRunner {
     Beginning begin_under(BatchLock lock, std::size_t index, int threads);
     /// Returns whether another process has made the image, or failed to, since this one looked at it last.
     bool was_made_elsewhere(std::size_t index, const BatchLock& lock);
-    /// Passes on what a process says about an image, but for notes and warnings that its scene has had already.
-    void pass_on(const ImageJob& job, const std::string& line);
 
     /// An image under way.
     struct Work {
@@ -97,24 +94,10 @@ class BatchRunner {
     std::optional<Beginning> conclude(Work& work, const Attempt& result);
     /// Ends an image that failed for another reason than its attempts.
     void fail(std::size_t index, const std::string& error);
-    /// Notes that another process has the image.
-    void leave_to_others(std::size_t index);
-    /// Tells what a process does that makes an image.
-    void follow(const Work& work);
+    void show_work();
     void pass_on_preview_request();
 
-    /// Says why an attempt failed; what its process has said itself is not said again, unless `quiet`.
-    [[nodiscard]] std::string failure_in_words(const Attempt& attempt) const;
-    void begin_record(std::size_t index, const BatchLock& lock);
-    /// Records that an image is not tried, since another image of its scene has shown that the scene is invalid.
-    void give_up(std::size_t index);
-    void end_record(std::size_t index, const Attempt& attempt, double seconds, bool again);
-    void finish(std::size_t index, const Attempt& attempt, double seconds);
-
-    void show(std::vector<BatchProgressLine::UnderWay> under_way);
     void wait_for_others(const std::vector<std::size_t>& held);
-    /// Writes the report as it is now, if that is due or `in_any_case`.
-    void write_reports(bool in_any_case);
     void tidy() const;
 
     const BatchOptions& options_;
@@ -123,21 +106,12 @@ class BatchRunner {
     BatchPlan plan_{};
     LedgerHistory& history_;
     BatchProgress& progress_;
-    BatchWatcher* watcher_;  ///< null if nobody looks on
-    BatchBooks books_;
     BatchLocks locks_;
+    BatchRecord record_;
+    std::size_t jobs_;                     ///< images that may be under way at the same time
     std::optional<ThreadPool> threads_{};  ///< if images are rendered in this process
-    BatchReport report_{};
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    std::size_t jobs_;  ///< images that may be under way at the same time
     std::vector<std::unique_ptr<Work>> work_{};
-    TimeLeft time_left_{};
     std::set<std::filesystem::path> invalid_scenes_{};
-    std::map<std::filesystem::path, std::set<std::string>> said_{};  ///< lines about each scene
-    std::size_t stale_ = 0;
-    std::size_t done_ = 0;  ///< images of the stale ones that are done
-    std::size_t failed_ = 0;
-    std::size_t not_tried_ = 0;
     bool has_waited_ = false;  ///< for others
     bool has_waited_for_memory_ = false;
 };

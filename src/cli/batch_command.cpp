@@ -223,7 +223,8 @@ std::uint64_t parse_memory(const char* option, const std::string& text) {
     return *bytes;
 }
 
-void add_own_options(CLI::App& command, BatchOptions& options) {
+/// Adds what says which images there are, and which of them are made first.
+void add_image_options(CLI::App& command, BatchOptions& options) {
     command.add_option("dirs", options.roots, "Directories to look for scene directories in, or glTF files")
         ->required()
         ->check(CLI::ExistingPath);
@@ -259,8 +260,11 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
             "Which images come first, by the estimates, by name, or by the time of a scene's newest file (default: by "
             "directory and scene)")
         ->check(CLI::IsMember(kOrders));
-    command.add_option("--threads", options.threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
+}
+
+/// Adds what says how many images are rendered at the same time, and what is done besides rendering them.
+void add_work_options(CLI::App& command, BatchOptions& options) {
+    add_threads_option(command, options.threads);
     auto* jobs =
         command
             .add_option_function<std::string>(
@@ -281,6 +285,10 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
                      "Print what would be rendered, why, for how long, and what would fail; write nothing");
     command.add_flag("--no-probe", options.no_probe,
                      "No estimate of time and memory, which takes a second for each scene that is stale");
+}
+
+/// Adds what says how the render of an image goes on after a failure, and where it ends.
+void add_attempt_options(CLI::App& command, BatchOptions& options) {
     command.add_option("--retries", options.retries, "Attempts after one that crashed or could not read or write")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
@@ -297,7 +305,7 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
     auto* in_process = command
                            .add_flag("--in-process", options.in_process,
                                      "Render in this process instead of one for each image: a crash ends all")
-                           ->excludes(jobs);
+                           ->excludes(command.get_option("--jobs"));
     command
         .add_option_function<std::string>(
             "--max-memory",
@@ -316,6 +324,9 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
             "take more than a minute)")
         ->excludes(command.add_flag_callback(
             "--no-keep-sums", [&options] { options.keep_sums_after.reset(); }, "Keep no sums of finished images"));
+}
+
+void add_message_options(CLI::App& command, BatchOptions& options) {
     command
         .add_option("--log", options.log,
                     "File to which every line of progress, notes and errors is appended, with its time")
@@ -335,7 +346,10 @@ void add_batch_command(CLI::App& app, Action& action) {
     auto options = std::make_shared<BatchOptions>();
     CLI::App* command = app.add_subcommand("batch", "Render every scene directory below some directories");
     auto live = std::make_shared<std::string>();
-    add_own_options(*command, *options);
+    add_image_options(*command, *options);
+    add_work_options(*command, *options);
+    add_attempt_options(*command, *options);
+    add_message_options(*command, *options);
     add_live_option(*command, *live, "Show the batch in a browser: its table, and images as they are finished");
     const std::size_t own = command->get_options().size();
     add_settings_options(*command, options->overrides);

@@ -4,6 +4,7 @@
 #include "core/log.h"
 
 #include <charconv>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -63,6 +64,23 @@ void add_tev_option(CLI::App& command, std::optional<TevAddress>& address, const
             },
             help + " to the viewer tev that listens there (docs/live.md)")
         ->type_name("HOST:PORT");
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+    command.add_option("--threads", threads, "Threads to use (default: one per processor)")->check(CLI::Range(1, 4096));
+}
+
+void add_directory_option(CLI::App& command, std::string& directory, const std::string& help) {
+    command.add_option("-o,--output", directory, help)
+        ->required()
+        ->check(CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "it is empty" : ""); },
+                               "DIR"));
+}
+
+void require_different(const std::string& option, const std::vector<std::string>& names) {
+    std::set<std::string> known;
+    for (const std::string& name : names)
+        if (!known.insert(name).second) throw CLI::ValidationError(option, "'" + name + "' is named twice");
 }
 
 void set_group(CLI::App& command, const std::string& group, std::initializer_list<const char*> options) {

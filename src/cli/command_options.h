@@ -29,6 +29,16 @@ void add_live_option(CLI::App& command, std::string& live, const std::string& he
 /// Adds --tev HOST:PORT, which arrives in `address`; `help` says what tev gets.
 void add_tev_option(CLI::App& command, std::optional<TevAddress>& address, const std::string& help);
 
+/// Adds --threads, which arrives in `threads`; 0 is one per processor.
+void add_threads_option(CLI::App& command, int& threads);
+
+/// Adds --output DIR, which must be given and arrives in `directory`; `help` says what is written there.
+void add_directory_option(CLI::App& command, std::string& directory, const std::string& help);
+
+/// Throws a validation error for `option` if `names` has a name twice, because what has one name could not be told
+/// apart.
+void require_different(const std::string& option, const std::vector<std::string>& names);
+
 /// Puts options of the command under one heading of its help.
 void set_group(CLI::App& command, const std::string& group, std::initializer_list<const char*> options);
 

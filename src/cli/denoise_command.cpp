@@ -299,8 +299,7 @@ void add_denoise_command(CLI::App& app, Action& action) {
                       fmt::format("Spread, and do not remove, what is more than {:g} times brighter in one half of the "
                                   "samples than its surroundings in the other",
                                   kFireflyFactor));
-    command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
+    add_threads_option(*command, arguments->threads);
     command->add_flag("--quiet", arguments->quiet, "No notes or warnings; errors only");
     command->footer(
         "R, G and B are denoised, and every layer of light that has R, G and B; each by its own variance, which the\n"

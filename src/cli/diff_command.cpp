@@ -1,13 +1,12 @@
 // etendue diff: how far an image is from a reference.
 #include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/diff_report.h"
 #include "cli/settings_options.h"
 #include "compare/image_measures.h"
 #include "compare/image_pair.h"
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
-#include "core/shown_text.h"
-#include "core/standard_output.h"
 #include "image/write.h"
 #include "metrics/color_map.h"
 #include "metrics/error_metrics.h"
@@ -21,7 +20,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,22 +29,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace etendue {
 
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
-
 /// The share of the values that a map's scale holds where errors have no largest: what lies above is fireflies.
 constexpr double kScaleQuantile = 0.99;
-
-/// A measure must not be larger.
-struct Limit {
-    std::string measure;
-    double value = 0.0;
-};
 
 struct DiffArguments {
     std::string image;
@@ -59,31 +48,6 @@ struct DiffArguments {
     int threads = 0;
     bool json = false;
     bool quiet = false;
-};
-
-struct MapWritten {
-    std::string file;
-    std::string measure;
-    double largest = 0.0;
-    std::string scale;  ///< where `largest` comes from
-};
-
-struct DiffResult {
-    std::vector<Measure> measures;
-    std::vector<Limit> limits;  ///< their names resolved
-    std::optional<MapWritten> map;
-
-    [[nodiscard]] std::optional<double> limit_of(std::string_view measure) const {
-        std::optional<double> lowest;
-        for (const Limit& limit : limits)
-            if (limit.measure == measure && (!lowest || limit.value < *lowest)) lowest = limit.value;
-        return lowest;
-    }
-    /// Written so that what is not a number is too much.
-    [[nodiscard]] bool is_too_large(const Measure& measure) const {
-        const auto limit = limit_of(measure.name);
-        return limit && !(measure.value <= *limit);
-    }
 };
 
 std::string lower_case(std::string text) {
@@ -139,8 +103,6 @@ std::vector<std::string> chosen_measures(const DiffArguments& arguments, bool is
     return chosen;
 }
 
-// ---- The map.
-
 /// Returns the error that the map's last colour stands for, and where that number comes from.
 std::pair<double, std::string> largest_of_map(const MeasuredPair& pair, const Measure& measure,
                                               const std::optional<double>& told) {
@@ -178,109 +140,6 @@ MapWritten write_map(const MeasuredPair& pair, const Measure& measure, const Dif
     write_image(arguments.map, pair.map(), options);
     return written;
 }
-
-// ---- The report.
-
-std::string describe(const ComparedFile& file) {
-    return fmt::format("{}: {}, {}, {} channels, {}{}", shown_text(file.path.string()), size_text_of(file.display),
-                       file.format, file.channels,
-                       file.color_space.empty() ? "colour space not said" : shown_text(file.color_space),
-                       file.data == file.display ? "" : fmt::format(", pixels {}", text_of(file.data)));
-}
-
-void print_report(const MeasuredPair& pair, const DiffArguments& arguments, const DiffResult& result) {
-    std::string text;
-    const auto out = std::back_inserter(text);
-    const PixelRect region = arguments.options.region.value_or(pair.pair().window);
-    fmt::format_to(out, "image           {}\n", describe(pair.pair().image_file));
-    fmt::format_to(out, "reference       {}\n", describe(pair.pair().reference_file));
-    fmt::format_to(
-        out, "compared        R, G, B of {} pixels, {} from {},{}{}\n", pair.pixel_count(), size_text_of(region),
-        region.x0, region.y0,
-        pair.left_out_count() == 0 ? "" : fmt::format("; {} that are not finite left out", pair.left_out_count()));
-    fmt::format_to(out, "                v is the image's value, r the reference's{}\n",
-                   pair.pair().is_encoded ? ", in [0, 1] as they stand in the files" : "");
-    for (const Measure& measure : result.measures) {
-        const auto limit = result.limit_of(measure.name);
-        fmt::format_to(
-            out, "{:<15} {:<12.6g} {}{}\n", measure.name, measure.value, measure.description,
-            limit ? fmt::format("; limit {:g}{}", *limit, result.is_too_large(measure) ? ", exceeded" : "") : "");
-    }
-    if (result.map)
-        fmt::format_to(out, "map             {}: {} from 0 to {:.6g} ({})\n", result.map->file, result.map->measure,
-                       result.map->largest, result.map->scale);
-    print_text(text);
-}
-
-OrderedJson to_json(const PixelRect& rect) {
-    return {rect.x0, rect.y0, rect.x1, rect.y1};
-}
-
-OrderedJson to_json(const NotFinite& faults) {
-    OrderedJson first = OrderedJson::array();
-    for (const Vec2i& place : faults.first) first.push_back({place.x, place.y});
-    return {{"nan", faults.nan},
-            {"infinite", faults.infinite},
-            {"window", faults.count() > 0 ? to_json(faults.bounds) : OrderedJson()},
-            {"first", first}};
-}
-
-OrderedJson to_json(const ComparedFile& file, const NotFinite& faults) {
-    return {{"file", file.path.string()},
-            {"format", file.format},
-            {"channels", file.channels},
-            {"size", {file.display.width(), file.display.height()}},
-            {"window", to_json(file.data)},
-            {"color_space", file.color_space.empty() ? OrderedJson() : OrderedJson(file.color_space)},
-            {"not_finite", to_json(faults)}};
-}
-
-OrderedJson to_json(const Measure& measure, const DiffArguments& arguments, const DiffResult& result) {
-    const auto limit = result.limit_of(measure.name);
-    OrderedJson json = {{"value", measure.value},  // JSON has no NaN: null
-                        {"formula", measure.description},
-                        {"limit", limit ? OrderedJson(*limit) : OrderedJson()},
-                        {"exceeded", result.is_too_large(measure)}};
-    if (measure.name.ends_with("flip"))
-        json["pixels_per_degree"] = arguments.options.flip.pixels_per_degree;
-    else
-        json["epsilon"] = kMetricEpsilon;
-    if (measure.exposures) {
-        json["tone_mapper"] = kFlipToneMapper;
-        json["exposures"] = {{"start", measure.exposures->start},
-                             {"stop", measure.exposures->stop},
-                             {"count", measure.exposures->count}};
-    }
-    return json;
-}
-
-void print_json(const MeasuredPair& pair, const DiffArguments& arguments, const DiffResult& result, bool passed) {
-    OrderedJson json;
-    json["image"] = to_json(pair.pair().image_file, pair.not_finite_in_image());
-    json["reference"] = to_json(pair.pair().reference_file, pair.not_finite_in_reference());
-    json["region"] = to_json(arguments.options.region.value_or(pair.pair().window));
-    json["pixels"] = pair.pixel_count();
-    json["left_out"] = pair.left_out_count();
-    json["color_space"] = pair.pair().color_space.empty() ? OrderedJson() : OrderedJson(pair.pair().color_space);
-    json["measures"] = OrderedJson::object();
-    for (const Measure& measure : result.measures) json["measures"][measure.name] = to_json(measure, arguments, result);
-    json["map"] = nullptr;
-    if (result.map)
-        json["map"] = {{"file", result.map->file}, {"measure", result.map->measure}, {"largest", result.map->largest}};
-    json["warnings"] = pair.pair().warnings;
-    json["passed"] = passed;
-    print_data(json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
-}
-
-void log_faults(const ComparedFile& file, const NotFinite& faults) {
-    if (faults.count() == 0) return;
-    std::string places;
-    for (const Vec2i& place : faults.first) places += fmt::format(" ({}, {})", place.x, place.y);
-    log_error("error: {}: {} pixels with NaN and {} with infinity, within {}:{}{}", file.path.string(), faults.nan,
-              faults.infinite, text_of(faults.bounds), places, faults.count() > faults.first.size() ? " …" : "");
-}
-
-// ---- The command.
 
 /// Takes no measure that the images are not made for. Says why on stderr if it is asked to.
 bool can_measure(const ImagePair& pair, const std::vector<std::string>& names, const DiffArguments& arguments) {
@@ -333,8 +192,7 @@ ExitCode run_diff(const DiffArguments& arguments) {
         map_failure = std::current_exception();
     }
 
-    log_faults(pair.pair().image_file, pair.not_finite_in_image());
-    log_faults(pair.pair().reference_file, pair.not_finite_in_reference());
+    log_faults(pair);
     bool passed = pair.not_finite_in_image().count() + pair.not_finite_in_reference().count() == 0;
     for (const Measure& measure : result.measures) {
         if (!result.is_too_large(measure)) continue;
@@ -343,9 +201,9 @@ ExitCode run_diff(const DiffArguments& arguments) {
                   *result.limit_of(measure.name));
     }
     if (arguments.json)
-        print_json(pair, arguments, result, passed);
+        print_json(pair, arguments.options, result, passed);
     else if (!arguments.quiet)
-        print_report(pair, arguments, result);
+        print_report(pair, arguments.options, result);
     if (map_failure) std::rethrow_exception(map_failure);
     return passed ? ExitCode::Success : ExitCode::DiffFailed;
 }
@@ -396,8 +254,7 @@ void add_diff_options(CLI::App& command, DiffArguments& arguments) {
             "HDR-FLIP: exposures in stops (default: chosen by the reference; the same for images that are to be "
             "ranked)")
         ->type_name("START:STOP");
-    command.add_option("--threads", arguments.threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
+    add_threads_option(command, arguments.threads);
     command.add_flag("--json", arguments.json, "Print JSON on stdout");
     command.add_flag("--quiet", arguments.quiet, "No report and no warnings; errors only");
 }

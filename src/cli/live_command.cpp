@@ -54,8 +54,7 @@ void add_live_command(CLI::App& app, Action& action) {
         ->check(CLI::Range(0, 65535));
     add_tev_option(*command, arguments->tev, "Send the images, too,");
     add_settings_options(*command, arguments->overrides);
-    command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
+    add_threads_option(*command, arguments->threads);
     command->footer(
         "A line on stderr has the address of the page. The page moves the camera, chooses integrators and shows the\n"
         "command that renders what it shows. The program ends with the page's button or Ctrl-C, and writes no file.\n\n"

@@ -6,6 +6,7 @@
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
 #include "core/standard_output.h"
+#include "picture/description_text.h"
 #include "picture/exr_files.h"
 #include "picture/image_description.h"
 #include "picture/output_paths.h"
@@ -62,7 +63,8 @@ void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
         log_warning("note: the parts have the pixels {} of {}", text_of(state.film.window()), text_of(all));
 }
 
-ExitCode run_merge(const MergeArguments& arguments) {
+/// Throws UsageError for names of files that can be neither parts nor what is made of them.
+void check_names(const MergeArguments& arguments) {
     const std::filesystem::path output = arguments.output;
     if (!is_partial(output) && output.extension() != ".exr")
         throw UsageError(
@@ -73,19 +75,54 @@ ExitCode run_merge(const MergeArguments& arguments) {
                 fmt::format("'{}' is an image, and an image is no part: parts are .partial files, of "
                             "'etendue render SCENE --samples A:B -o PART.partial'",
                             part));
-    const OutputPaths paths = OutputPaths::beside(output);
+}
+
+void require_parts_kept(const MergeArguments& arguments, std::span<const std::filesystem::path> outputs) {
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
-    require_writable(output);
-    const auto require_parts_kept = [&](std::span<const std::filesystem::path> outputs) {
-        require_files_kept("--output", outputs, parts);
-    };
-    require_parts_kept(is_partial(output) ? std::vector{output} : std::vector{output, paths.png, paths.json});
-    const PhaseTimer timer;
-    const MergedParts merged = merge_parts(parts, [&](const std::string& note) {
+    require_files_kept("--output", outputs, parts);
+}
+
+MergedParts merge_given_parts(const MergeArguments& arguments) {
+    const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
+    return merge_parts(parts, [&](const std::string& note) {
         // A part says where its samples begin and how many there are, and no more.
-        if (is_partial(output)) throw SceneError({output.string(), {}}, note + "; such parts can become an image only");
+        if (is_partial(arguments.output))
+            throw SceneError({arguments.output, {}}, note + "; such parts can become an image only");
         if (!arguments.quiet) log_warning("note: {}", note);
     });
+}
+
+/// Writes the image of the parts with its layers and all that stands beside it.
+void write_merged_image(const MergeArguments& arguments, const OutputPaths& paths, const RenderState& state,
+                        ImageDescription& image) {
+    if (const auto note = few_buckets(image.statistics); note && !arguments.quiet)
+        log_warning("note: {}: {}", arguments.output, *note);
+    require_writable(paths.png);
+    require_writable(paths.json);
+    const PixelDepth depth = arguments.depth.value_or(image.depth);
+    if (image.frame.aces_container && depth == PixelDepth::Float)
+        throw UsageError(
+            "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
+    resolve_layers(image, state);
+    std::vector<std::filesystem::path> layers;
+    for (const std::string& name : layer_file_names(paths.exr, image)) layers.push_back(paths.exr.parent_path() / name);
+    require_parts_kept(arguments, layers);
+    image.statistics.libraries = library_versions();
+    const std::vector<std::string> earlier = write_image_files(paths, image, ColorConfig::from_environment(), depth);
+    if (arguments.quiet) return;
+    note_exposure(paths, image.statistics);
+    note_earlier_files(earlier);
+}
+
+ExitCode run_merge(const MergeArguments& arguments) {
+    check_names(arguments);
+    const std::filesystem::path output = arguments.output;
+    const OutputPaths paths = OutputPaths::beside(output);
+    require_writable(output);
+    require_parts_kept(arguments,
+                       is_partial(output) ? std::vector{output} : std::vector{output, paths.png, paths.json});
+    const PhaseTimer timer;
+    const MergedParts merged = merge_given_parts(arguments);
     const RenderState& state = merged.sum.state;
     ImageDescription image = description_of(merged.sum, arguments.parts.front());
     image.statistics.load = timer.elapsed();
@@ -99,25 +136,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
         write_checkpoint(output, merged.sum.identity, merged.sum.description, state);
     } else {
         if (!arguments.quiet) note_missing(merged, spp_requested);
-        if (const auto note = few_buckets(image.statistics); note && !arguments.quiet)
-            log_warning("note: {}: {}", output.string(), *note);
-        require_writable(paths.png);
-        require_writable(paths.json);
-        const PixelDepth depth = arguments.depth.value_or(image.depth);
-        if (image.frame.aces_container && depth == PixelDepth::Float)
-            throw UsageError(
-                "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
-        resolve_layers(image, state);
-        std::vector<std::filesystem::path> layers;
-        for (const std::string& name : layer_file_names(output, image)) layers.push_back(output.parent_path() / name);
-        require_parts_kept(layers);
-        image.statistics.libraries = library_versions();
-        const std::vector<std::string> earlier =
-            write_image_files(paths, image, ColorConfig::from_environment(), depth);
-        if (!arguments.quiet) {
-            note_exposure(paths, image.statistics);
-            note_earlier_files(earlier);
-        }
+        write_merged_image(arguments, paths, state, image);
     }
     const PixelRect& window = state.film.window();
     if (!arguments.quiet)

@@ -8,7 +8,7 @@
 #include "live/render_page.h"
 #include "live/tev_viewer.h"
 #include "loader/files.h"
-#include "picture/aov_setup.h"
+#include "picture/aov_sources.h"
 #include "picture/output_paths.h"
 #include "session/image_job.h"
 #include "session/interrupt.h"
@@ -199,6 +199,58 @@ void add_continuation_options(CLI::App& command, const std::shared_ptr<RenderArg
         ->check(CLI::Range(3, 1 << 20));
 }
 
+void add_strategies_options(CLI::App& command, const std::shared_ptr<RenderArguments>& arguments) {
+    auto* strategies = command.add_option_function<std::string>(
+        "--strategies-image", [arguments](const std::string& path) { arguments->job.strategies.output = path; },
+        "Also write the images of all strategies of bdpt, one by one: an EXR with a part for each and a labelled PNG. "
+        "They stay in memory until all are rendered, about 24 bytes a pixel and strategy, with --float 32");
+    command
+        .add_option("--strategies-depth", arguments->job.strategies.longest,
+                    "Longest paths whose strategies are shown (default: 8, or --max-depth if that is less)")
+        ->check(CLI::Range(1, 64))
+        ->needs(strategies);
+    command
+        .add_flag_callback(
+            "--strategies-unweighted", [arguments] { arguments->job.strategies.weighted = false; },
+            "Show each as if it were the only one")
+        ->needs(strategies);
+}
+
+void set_render_groups(CLI::App& command) {
+    set_group(command, "Going on and parts",
+              {"--checkpoint-every", "--resume", "--keep-sums", "--keep-sums-after", "--samples", "--force"});
+    set_group(command, "Strategies of bdpt and vcm",
+              {"--strategies-image", "--strategies-depth", "--strategies-unweighted"});
+}
+
+std::string render_footer() {
+    return "Options override render.json. Of a sequence, frames whose inputs have not changed and that were made with\n"
+           "the same settings are skipped. Ctrl-C writes a checkpoint and the image so far, marked incomplete: "
+           "--resume goes\n"
+           "on from there. SIGUSR1 writes NAME.preview.png and goes on. --spp, --time and --error can be combined: the "
+           "first\n"
+           "that is reached ends the render.\n\n"
+           "Examples:\n"
+           "  etendue render scenes/cornell-box -o box.exr\n"
+           "  etendue render scenes/cornell-box --live\n"
+           "  etendue render scenes/cornell-box --tev 127.0.0.1:14158\n"
+           "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
+           "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
+           "  etendue render model.glb --display 'Display P3 - Display' --look 'ACES 1.3 Reference Gamut Compression'\n"
+           "  etendue render model.glb -o plate.exr --aces-container\n"
+           "  etendue render fox.glb --time-code 0.35 --animation Run\n"
+           "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
+           "  etendue render scenes/caustic-glass --integrator bdpt --strategies-image pyramid.exr --strategies-depth "
+           "5\n"
+           "  etendue render scenes/cornell-box --spp 65536 --error 0.02 --checkpoint-every 10 --resume\n"
+           "  etendue render scenes/cornell-box --samples 0:128 -o a.partial   # and 128:256 elsewhere, then 'merge'\n"
+           "  etendue render scenes/caustic-glass --robust mon:7 --aov mean --brightest 20\n"
+           "  etendue render scenes/caustic-glass --integrator bdpt --aov passes --aov 'caustics=lpe:C D S+ L'\n"
+           "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet\n\n"
+           "Layers for --aov:\n" +
+           list_aov_sources();
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app, Action& action) {
@@ -217,23 +269,9 @@ void add_render_command(CLI::App& app, Action& action) {
                      "Number of the first frame of the sequence, of which --frames are a part: 'auto' chooses the "
                      "integrator there (default: the first of --frames)")
         ->check(CLI::Range(-999999, 999999));
-    command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
+    add_threads_option(*command, arguments->threads);
     add_continuation_options(*command, arguments);
-    auto* strategies = command->add_option_function<std::string>(
-        "--strategies-image", [arguments](const std::string& path) { arguments->job.strategies.output = path; },
-        "Also write the images of all strategies of bdpt, one by one: an EXR with a part for each and a labelled PNG. "
-        "They stay in memory until all are rendered, about 24 bytes a pixel and strategy, with --float 32");
-    command
-        ->add_option("--strategies-depth", arguments->job.strategies.longest,
-                     "Longest paths whose strategies are shown (default: 8, or --max-depth if that is less)")
-        ->check(CLI::Range(1, 64))
-        ->needs(strategies);
-    command
-        ->add_flag_callback(
-            "--strategies-unweighted", [arguments] { arguments->job.strategies.weighted = false; },
-            "Show each as if it were the only one")
-        ->needs(strategies);
+    add_strategies_options(*command, arguments);
     command->add_flag(
         "--force", arguments->force,
         "Of a sequence or with --resume, render again what is up to date, and replace a part whatever it is; a "
@@ -242,36 +280,8 @@ void add_render_command(CLI::App& app, Action& action) {
     add_live_option(*command, arguments->live, "Show the image in a browser as it grows");
     command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
-    command->footer(
-        "Options override render.json. Of a sequence, frames whose inputs have not changed and that were made "
-        "with\n"
-        "the same settings are skipped. Ctrl-C writes a checkpoint and the image so far, marked incomplete: --resume "
-        "goes\n"
-        "on from there. SIGUSR1 writes NAME.preview.png and goes on. --spp, --time and --error can be combined: the "
-        "first\n"
-        "that is reached ends the render.\n\n"
-        "Examples:\n"
-        "  etendue render scenes/cornell-box -o box.exr\n"
-        "  etendue render scenes/cornell-box --live\n"
-        "  etendue render scenes/cornell-box --tev 127.0.0.1:14158\n"
-        "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
-        "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
-        "  etendue render model.glb --display 'Display P3 - Display' --look 'ACES 1.3 Reference Gamut Compression'\n"
-        "  etendue render model.glb -o plate.exr --aces-container\n"
-        "  etendue render fox.glb --time-code 0.35 --animation Run\n"
-        "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
-        "  etendue render scenes/caustic-glass --integrator bdpt --strategies-image pyramid.exr --strategies-depth 5\n"
-        "  etendue render scenes/cornell-box --spp 65536 --error 0.02 --checkpoint-every 10 --resume\n"
-        "  etendue render scenes/cornell-box --samples 0:128 -o a.partial   # and 128:256 elsewhere, then 'merge'\n"
-        "  etendue render scenes/caustic-glass --robust mon:7 --aov mean --brightest 20\n"
-        "  etendue render scenes/caustic-glass --integrator bdpt --aov passes --aov 'caustics=lpe:C D S+ L'\n"
-        "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet\n\n"
-        "Layers for --aov:\n" +
-        list_aov_sources());
-    set_group(*command, "Going on and parts",
-              {"--checkpoint-every", "--resume", "--keep-sums", "--keep-sums-after", "--samples", "--force"});
-    set_group(*command, "Strategies of bdpt and vcm",
-              {"--strategies-image", "--strategies-depth", "--strategies-unweighted"});
+    command->footer(render_footer());
+    set_render_groups(*command);
     command->callback([arguments, command, &action] {
         // A PNG is written beside each image, and who asks for it gets it.
         std::filesystem::path& output = arguments->output;

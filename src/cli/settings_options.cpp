@@ -5,7 +5,6 @@
 #include "session/usage_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
@@ -21,45 +20,28 @@ namespace etendue {
 
 namespace {
 
-constexpr const char* kGroupOfFiles = "Layers and files";
-constexpr const char* kGroupOfScenes = "What the scene shows";
-
 const std::map<std::string, Quality> kQualities{
     {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
 
-/// Holds the headings of settings by the beginnings of their JSON pointers.
-constexpr std::array<std::pair<std::string_view, const char*>, 24> kGroups{{
-    {"/spp", "Samples and when to end"},
-    {"/time_code", "Animation"},
-    {"/time", "Samples and when to end"},
-    {"/error", "Samples and when to end"},
-    {"/adaptive", "Samples and when to end"},
-    {"/min_spp", "Samples and when to end"},
-    {"/seed", "Samples and when to end"},
-    {"/clamp_indirect", "Samples and when to end"},
-    {"/robust", "Samples and when to end"},
-    {"/brightest", "Samples and when to end"},
-    {"/size", "Size and camera"},
-    {"/crop", "Size and camera"},
-    {"/film", "Size and camera"},
-    {"/camera", "Size and camera"},
-    {"/animation", "Animation"},
-    {"/shutter", "Animation"},
-    {"/frames", "Animation"},
-    {"/fps", "Animation"},
-    {"/integrator", "Light transport"},
-    {"/aov", kGroupOfFiles},
-    {"/metadata", kGroupOfFiles},
-    {"/color", "Colour"},
-    {"/texture_memory", kGroupOfScenes},
-    {"/missing_textures", kGroupOfScenes},
-}};
-
-/// Returns the heading under which the help shows a setting.
-const char* group_of(const Setting& setting) {
-    for (const auto& [begin, group] : kGroups)
-        if (setting.pointer.starts_with(begin)) return group;
-    return kGroupOfScenes;
+/// Returns the heading under which the help shows settings of `group`.
+const char* heading_of(SettingGroup group) {
+    switch (group) {
+        case SettingGroup::Transport:
+            return "Light transport";
+        case SettingGroup::Samples:
+            return "Samples and when to end";
+        case SettingGroup::View:
+            return "Size and camera";
+        case SettingGroup::Scene:
+            return "What the scene shows";
+        case SettingGroup::Animation:
+            return "Animation";
+        case SettingGroup::Files:
+            return "Layers and files";
+        case SettingGroup::Colour:
+            return "Colour";
+    }
+    return "";
 }
 
 std::string without_backticks(std::string_view text) {
@@ -128,7 +110,7 @@ void add_flags(CLI::App& command, const Setting& setting, const YesNo& type, Set
         return command
             .add_flag_callback(
                 std::string(option), [&overrides, option] { overrides.give(option); }, help)
-            ->group(group_of(setting));
+            ->group(heading_of(setting.group));
     };
     CLI::Option* yes = setting.option.empty() ? nullptr : add(setting.option, description_of(setting));
     CLI::Option* no = type.no_option.empty() ? nullptr : add(type.no_option, without_backticks(type.no_help));
@@ -155,7 +137,7 @@ void add_setting_option(CLI::App& command, const Setting& setting, SettingsOverr
             std::string(setting.option),
             [&](const std::string& text) { give_or_fail(overrides, setting.option, text); }, description_of(setting));
     option->type_name(type_name_of(setting.type));
-    option->group(group_of(setting));
+    option->group(heading_of(setting.group));
     const auto* const name = std::get_if<Name>(&setting.type);
     if (name != nullptr && name->is_integrator)
         option->check(CLI::IsMember(integrator_setting_names()).description(""));
@@ -198,7 +180,7 @@ void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& as
             "Directory outside of the scene's from which the environment image that render.json names may come; may be "
             "repeated. $ETENDUE_ASSETS lists more, with ':' between them")
         ->check(CLI::ExistingDirectory)
-        ->group(kGroupOfScenes)
+        ->group(heading_of(SettingGroup::Scene))
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
@@ -207,7 +189,7 @@ void add_png_option(CLI::App& command, SettingsOverrides& overrides) {
     command
         .add_flag_callback(
             "--no-png", [&overrides] { overrides.png = false; }, "Write no PNG beside the image")
-        ->group(kGroupOfFiles);
+        ->group(heading_of(SettingGroup::Files));
 }
 
 void add_scene_argument(CLI::App& command, std::string& scene) {
@@ -238,22 +220,22 @@ void add_settings_options(CLI::App& command, SettingsOverrides& overrides) {
                 return text == kNoEnvironment || text == kNeutralEnvironment ? std::string() : CLI::ExistingFile(text);
             },
             "FILE, neutral or none"))
-        ->group(kGroupOfScenes);
+        ->group(heading_of(SettingGroup::Scene));
     add_assets_option(command, overrides.assets);
     command
         .add_flag_callback(
             "--deep", [&overrides] { overrides.deep = true; },
             "Write a deep image beside the image, IMAGE.deep.exr: colour and opacity at up to 16 depths of each pixel "
             "(docs/deep.md)")
-        ->group(kGroupOfFiles);
+        ->group(heading_of(SettingGroup::Files));
     auto* half = command.add_flag_callback(
         "--half", [&overrides] { overrides.depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
-    half->group(kGroupOfFiles);
+    half->group(heading_of(SettingGroup::Files));
     command
         .add_flag_callback(
             "--float", [&overrides] { overrides.depth = PixelDepth::Float; }, "Write 32-bit floats")
         ->excludes(half)
-        ->group(kGroupOfFiles);
+        ->group(heading_of(SettingGroup::Files));
 }
 
 }  // namespace etendue

@@ -1,7 +1,7 @@
 #include "farm/farm_leftovers.h"
 
 #include "core/error.h"
-#include "picture/image_description.h"
+#include "picture/description_text.h"
 #include "picture/render_setup.h"
 #include "session/checkpoint_files.h"
 

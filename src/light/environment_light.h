@@ -16,6 +16,7 @@
 #include "sampling/distribution.h"
 #include "texture/texture.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -42,7 +43,15 @@ struct ConstantEnvironment {
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
+    // Nothing of it is brighter than its mean, so that samples of that are black.
     [[nodiscard]] LightSample sample_compensated(const Vec3f&, Vec2f) const { return {}; }
+    void sample_compensated(std::span<const Vec2f>, std::span<LightSample> samples) const {
+        std::ranges::fill(samples, LightSample());
+    }
+    [[nodiscard]] float compensated_pdf_solid_angle(const Vec3f&) const { return 0.0f; }
+    void look(std::span<const Vec3f>, std::span<EnvironmentRadiance> seen) const {
+        std::ranges::fill(seen, EnvironmentRadiance{value});
+    }
     [[nodiscard]] float compensated_power(float) const { return 0.0f; }
     [[nodiscard]] static std::optional<Vec3f> point() { return std::nullopt; }
     [[nodiscard]] static constexpr std::size_t bytes() { return 0; }

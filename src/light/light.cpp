@@ -4,29 +4,45 @@
 
 namespace etendue {
 
+namespace {
+
+/// True of the kinds of light that rays meet infinitely far away.
+template <typename Kind>
+constexpr bool kIsMetAfar = Kind::is_at_infinity() && !Kind::is_delta();
+
+}  // namespace
+
 LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u) {
-    if (const MeshLight* mesh = std::get_if<MeshLight>(&light)) return mesh->sample(point, u_triangle, u);
-    if (const ShapeLight* shape = std::get_if<ShapeLight>(&light)) return shape->sample(point, u_triangle, u);
     return std::visit(
-        [&](const auto& l) {
-            if constexpr (requires { l.sample(point, u); })
-                return l.sample(point, u);
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (kIsSurfaceLight<Kind>)
+                return l.sample(point, u_triangle, u);
             else
-                return LightSample{};
+                return l.sample(point, u);
         },
         light);
 }
 
 LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u) {
-    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->sample_compensated(point, u);
-    if (const auto* constant = std::get_if<ConstantEnvironment>(&light)) return constant->sample_compensated(point, u);
-    return sample_light(light, point, u_triangle, u);
+    return std::visit(
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (Kind::is_environment())
+                return l.sample_compensated(point, u);
+            else
+                return sample_light(light, point, u_triangle, u);
+        },
+        light);
 }
 
 void sample_environment_compensated(const Light& light, std::span<const Vec2f> u, std::span<LightSample> samples) {
-    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->sample_compensated(u, samples);
-    // A constant one has nothing that is brighter than its mean.
-    std::ranges::fill(samples, LightSample());
+    std::visit(
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (Kind::is_environment())
+                l.sample_compensated(u, samples);
+            else
+                std::ranges::fill(samples, LightSample());
+        },
+        light);
 }
 
 EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene) {
@@ -100,8 +116,8 @@ std::optional<Vec3f> light_point(const Light& light) {
 
 Rgb radiance_from_afar(const Light& light, const Vec3f& direction) {
     return std::visit(
-        [&](const auto& l) {
-            if constexpr (requires { l.radiance(direction); })
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (kIsMetAfar<Kind>)
                 return l.radiance(direction);
             else
                 return Rgb();
@@ -111,8 +127,8 @@ Rgb radiance_from_afar(const Light& light, const Vec3f& direction) {
 
 float pdf_solid_angle_from_afar(const Light& light, const Vec3f& direction) {
     return std::visit(
-        [&](const auto& l) {
-            if constexpr (requires { l.pdf_solid_angle(direction); })
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (kIsMetAfar<Kind>)
                 return l.pdf_solid_angle(direction);
             else
                 return 0.0f;
@@ -121,15 +137,27 @@ float pdf_solid_angle_from_afar(const Light& light, const Vec3f& direction) {
 }
 
 float compensated_pdf_solid_angle_from_afar(const Light& light, const Vec3f& direction) {
-    if (std::holds_alternative<ConstantEnvironment>(light)) return 0.0f;
-    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->compensated_pdf_solid_angle(direction);
-    return pdf_solid_angle_from_afar(light, direction);
+    return std::visit(
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (Kind::is_environment())
+                return l.compensated_pdf_solid_angle(direction);
+            else if constexpr (kIsMetAfar<Kind>)
+                return l.pdf_solid_angle(direction);
+            else
+                return 0.0f;
+        },
+        light);
 }
 
 void look_at_environment(const Light& light, std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) {
-    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->look(directions, seen);
-    const auto* constant = std::get_if<ConstantEnvironment>(&light);
-    std::ranges::fill(seen, EnvironmentRadiance{constant != nullptr ? constant->value : Rgb()});
+    std::visit(
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (Kind::is_environment())
+                l.look(directions, seen);
+            else
+                std::ranges::fill(seen, EnvironmentRadiance{Rgb()});
+        },
+        light);
 }
 
 LightSelector::LightSelector(std::span<const Light> lights, float scene_radius) {

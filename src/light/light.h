@@ -24,6 +24,24 @@ namespace etendue {
 using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight, SunLight, MeshLight, ShapeLight,
                            ConstantEnvironment, ImageEnvironment>;
 
+/// True of the kinds of light that are surfaces of the scene, which rays meet.
+template <typename Kind>
+inline constexpr bool kIsSurfaceLight = !Kind::is_delta() && !Kind::is_at_infinity();
+
+/// Returns what `use` says of the light if that is a surface, else `otherwise`. A kind that `use` does not take does
+/// not compile.
+template <typename Result, typename Use>
+[[nodiscard]] Result of_surface_light(const Light& light, const Result& otherwise, const Use& use) {
+    return std::visit(
+        [&]<typename Kind>(const Kind& l) -> Result {
+            if constexpr (kIsSurfaceLight<Kind>)
+                return use(l);
+            else
+                return otherwise;
+        },
+        light);
+}
+
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle, of a shape the
 /// face. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);

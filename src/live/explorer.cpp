@@ -32,8 +32,8 @@ constexpr double kSliceSeconds = 0.2;  // of a pass, so that both images go on s
 /// Returns true for what "Other options" of a page may change: no more can, once the world is compiled, and the
 /// integrator has a field of its own.
 bool may_be_chosen(const Setting& setting) {
-    return (setting.pointer.starts_with("/integrator/") && setting.pointer != "/integrator/type") ||
-           setting.pointer == "/clamp_indirect" || setting.pointer == "/seed" || setting.pointer == "/sampler";
+    const bool is_of_samples = setting.group == SettingGroup::Transport || setting.group == SettingGroup::Samples;
+    return is_of_samples && setting.decides == Decides::Samples && setting.pointer != "/integrator/type";
 }
 
 /// Gives `overrides` the options in `text`, "--max-depth 3 --unweighted".

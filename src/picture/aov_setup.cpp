@@ -5,6 +5,8 @@
 #include "integrator/integrator.h"
 #include "lightpath/usual_expressions.h"
 #include "output/cryptomatte.h"
+#include "picture/aov_sources.h"
+#include "picture/light_names.h"
 #include "picture/matte_names.h"
 
 #include <algorithm>
@@ -22,111 +24,10 @@ namespace etendue {
 
 namespace {
 
-constexpr std::string_view kExpression = "lpe:";
-constexpr std::string_view kLight = "light:";
-
-/// Sources that are neither expressions nor values of first hits.
-struct OtherSource {
-    std::string_view name;
-    std::string_view summary;
-};
-constexpr OtherSource kSamples{"samples", "samples of each pixel"};
-constexpr OtherSource kVariance{"variance", "variance of each pixel's mean, as if its samples were independent"};
-constexpr OtherSource kRays{"rays", "rays per sample of each pixel"};
-constexpr OtherSource kMean{"mean", "mean of the samples, which the image is without --robust"};
-constexpr OtherSource kRemoved{"clamped", "light that --clamp-indirect took away"};
-constexpr OtherSource kDeep{"deep", "a deep image, IMAGE.deep.exr, as --deep writes it"};
-/// Sources that stand for several.
-constexpr OtherSource kPasses{"passes", "the light in ten layers that add up to the image"};
-constexpr OtherSource kLights{"lights", "the light of each lamp, emitting object and the environment, by name"};
-constexpr OtherSource kDenoising{"denoising",
-                                 "what 'etendue denoise' needs: albedo, N, depth, and half of the samples"};
-
-/// Cryptomattes: by what their ids are told apart, and the layers that they are unless named otherwise.
-struct MatteSource {
-    std::string_view name;
-    std::string_view layer;
-    std::string_view summary;
-    std::vector<std::string> (*names)(const SceneDesc&);
-    bool by_material;
-};
-constexpr std::array kMattes{
-    MatteSource{"cryptomatte_object", "CryptoObject", "ids of objects and their coverage, by Cryptomatte", object_names,
-                false},
-    MatteSource{"cryptomatte_material", "CryptoMaterial", "the same of materials", material_names, true},
-    MatteSource{"cryptomatte_asset", "CryptoAsset", "the same of the topmost nodes", asset_names, false},
-};
-constexpr OtherSource kCryptomatte{
-    "cryptomatte", "the three that follow; :RANKS behind one of them for another number of ids a pixel than 6"};
 constexpr int kUsualRanks = 6;
 constexpr int kMostRanks = 32;
 /// Larger manifests are left out: files are opened for their headers.
 constexpr std::size_t kLargestManifest = std::size_t{16} << 20;
-
-/// Returns what expressions call a lamp or an object of this `name`; all without a name are called "unnamed".
-std::string light_name(const std::string& name) {
-    return name.empty() ? "unnamed" : name;
-}
-
-PathNames names_in(const SceneDesc& scene) {
-    PathNames names;
-    for (const MaterialDesc& material : scene.materials) names.materials.push_back(material.name);
-    for (const LightDesc& light : scene.lights) names.lights.push_back(light_name(light.name));
-    for (const InstanceDesc& instance : scene.instances) names.lights.push_back(light_name(instance.name));
-    names.lights.emplace_back("environment");
-    const std::set<std::string_view> own_names(names.lights.begin(), names.lights.end());
-    for (const std::string_view node : node_names_of_lights(scene))
-        names.light_aliases.emplace_back(own_names.contains(node) ? std::string_view() : node);
-    for (const InstanceDesc& instance : scene.instances) {
-        const std::string& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh.index)].name;
-        names.light_aliases.emplace_back(own_names.contains(mesh) ? std::string() : mesh);
-    }
-    return names;
-}
-
-bool emits(const SceneDesc& scene, const InstanceDesc& instance) {
-    const MeshDesc& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh.index)];
-    return std::ranges::any_of(mesh.primitives, [&](const PrimitiveDesc& primitive) {
-        const MaterialDesc& material = scene.materials[static_cast<std::size_t>(primitive.material.index)];
-        return material.emissive_strength > 0.0f && !is_black(material.emissive);
-    });
-}
-
-/// Names of what shines, each once, in the order of the scene.
-std::vector<std::string> light_names(const SceneDesc& scene) {
-    std::vector<std::string> names;
-    std::set<std::string> seen;
-    const auto add = [&](const std::string& name) {
-        if (seen.insert(name).second) names.push_back(name);
-    };
-    for (const LightDesc& light : scene.lights) add(light_name(light.name));
-    for (const InstanceDesc& instance : scene.instances)
-        if (emits(scene, instance)) add(light_name(instance.name));
-    if (scene.environment.enabled) add("environment");
-    return names;
-}
-
-/// `name` with '_' in place of each character that layers may not be called by; not too long for a file, and unlike
-/// what is in `taken`, where it is put.
-std::string layer_name(const std::string& name, std::set<std::string>& taken) {
-    constexpr std::size_t kMostCharacters = 100;
-    std::string plain;
-    for (const char c : name) {
-        if (continues_character(c) || plain.size() == kMostCharacters) continue;
-        plain += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
-    }
-    std::string result = plain;
-    for (int i = 2; !taken.insert(result).second; ++i) result = fmt::format("{}_{}", plain, i);
-    return result;
-}
-
-/// In a name, both kinds of quotes would end it: then * stands for them.
-std::string light_expression(std::string name) {
-    if (name.find('\'') != std::string::npos && name.find('"') != std::string::npos)
-        std::ranges::replace(name, '\'', '*');
-    const char quote = name.find('\'') == std::string::npos ? '\'' : '"';
-    return fmt::format("C .* <L{}{}{}>", quote, name, quote);
-}
 
 /// Channels of the file that the writer makes.
 bool is_reserved(const std::string& name) {
@@ -173,19 +74,19 @@ class Planner {
 
     void add(const AovDesc& aov) {
         const bool is_group = aov.name == aov.source;
-        if (is_group && aov.source == kPasses.name) {
+        if (is_group && aov.source == aov_source::kPasses.name) {
             for (const UsualExpression& usual : partition_expressions())
                 add_expression(aov, std::string(usual.name), std::string(usual.expression));
-        } else if (is_group && aov.source == kLights.name) {
+        } else if (is_group && aov.source == aov_source::kLights.name) {
             std::set<std::string> taken;
             for (const std::string& name : light_names(scene_))
                 add_expression(aov, "light_" + layer_name(name, taken), light_expression(name));
-        } else if (is_group && aov.source == kDenoising.name) {
+        } else if (is_group && aov.source == aov_source::kDenoising.name) {
             plan_.has_halves = true;
             for (const FirstHitValue value : {FirstHitValue::Albedo, FirstHitValue::Normal, FirstHitValue::Depth})
                 add_first_hit(aov, std::string(first_hit_entry(value).name), first_hit_entry(value));
-        } else if (is_group && aov.source == kCryptomatte.name) {
-            for (const MatteSource& matte : kMattes) add_matte(aov, matte);
+        } else if (is_group && aov.source == aov_source::kCryptomatte.name) {
+            for (const MatteSource& matte : aov_source::kMattes) add_matte(aov, matte);
         } else {
             add_one(aov);
         }
@@ -193,49 +94,45 @@ class Planner {
 
     void add_one(const AovDesc& aov) {
         const std::string_view source = aov.source;
-        if (source.starts_with(kExpression))
-            return add_expression(aov, aov.name, aov.source.substr(kExpression.size()));
-        if (source.starts_with(kLight))
-            return add_expression(aov, aov.name, light_expression(aov.source.substr(kLight.size())));
+        if (source.starts_with(aov_source::kExpression))
+            return add_expression(aov, aov.name, aov.source.substr(aov_source::kExpression.size()));
+        if (source.starts_with(aov_source::kLight))
+            return add_expression(aov, aov.name, light_expression(aov.source.substr(aov_source::kLight.size())));
         for (const UsualExpression& usual : usual_expressions())
             if (usual.name == source) return add_expression(aov, aov.name, std::string(usual.expression));
         for (const FirstHitEntry& entry : first_hit_table())
             if (entry.name == source) return add_first_hit(aov, aov.name, entry);
-        if (source == kSamples.name) return (void)add_output(aov, {aov.name, "X", AovKind::Samples, 0, 0.0f, true});
-        if (source == kVariance.name) {
+        if (source == aov_source::kSamples.name)
+            return (void)add_output(aov, {aov.name, "X", AovKind::Samples, 0, 0.0f, true});
+        if (source == aov_source::kVariance.name) {
             set_.layout.has_moments = true;
             return (void)add_output(aov, {aov.name, "RGB", AovKind::Variance, 0, 0.0f, true});
         }
-        if (source == kRays.name) {
+        if (source == aov_source::kRays.name) {
             set_.layout.has_ray_counts = true;
             return (void)add_output(aov, {aov.name, "X", AovKind::Rays});
         }
-        if (source == kMean.name) return (void)add_output(aov, {aov.name, "RGB", AovKind::Mean});
-        if (source == kRemoved.name) {
+        if (source == aov_source::kMean.name) return (void)add_output(aov, {aov.name, "RGB", AovKind::Mean});
+        if (source == aov_source::kRemoved.name) {
             if (scene_.settings.clamp_indirect == 0.0f)
                 fail(aov, "nothing is taken away without a limit (--clamp-indirect)");
             // Which light layer that is, is known once all expressions are.
             return (void)add_output(aov, {aov.name, "RGB", AovKind::Layer, kRemovedLayer});
         }
-        for (const MatteSource& matte : kMattes)
+        for (const MatteSource& matte : aov_source::kMattes)
             if (matte.name == source) return add_matte(aov, matte);
-        if (source == kDeep.name) {
+        if (source == aov_source::kDeep.name) {
             if (aov.name != aov.source) fail(aov, "a deep image is no layer: ask for 'deep', and it has that name");
             if (aov.is_float == false) fail(aov, "depths are 32-bit floats: leave ':half' away");
             set_.layout.is_deep = true;
             return (void)add_output(aov, {aov.name, {}, AovKind::Deep, 0, 0.0f, true});
         }
-        for (const std::string_view group : {kPasses.name, kLights.name, kDenoising.name, kCryptomatte.name})
+        for (const std::string_view group : {aov_source::kPasses.name, aov_source::kLights.name,
+                                             aov_source::kDenoising.name, aov_source::kCryptomatte.name})
             if (source == group)
                 fail(aov, fmt::format("'{}' stands for several layers, which have names of their own: leave '{}=' away",
                                       source, aov.name));
-        std::vector<std::string_view> names{kMean.name, kRemoved.name, kSamples.name, kVariance.name, kRays.name,
-                                            kDeep.name, kPasses.name,  kLights.name,  kDenoising.name};
-        for (const UsualExpression& usual : usual_expressions()) names.push_back(usual.name);
-        for (const FirstHitEntry& entry : first_hit_table()) names.push_back(entry.name);
-        for (const MatteSource& matte : kMattes) names.push_back(matte.name);
-        names.push_back(kCryptomatte.name);
-        fail(aov, fmt::format("there is no source '{}'; {}", source, name_hint(source, names)));
+        fail(aov, fmt::format("there is no source '{}'; {}", source, name_hint(source, aov_source_names())));
     }
 
     void add_expression(const AovDesc& aov, const std::string& name, const std::string& text) {
@@ -356,7 +253,7 @@ class Planner {
                                     "one of both another name",
                                     output.name, plan_.outputs[m].name, origins_[m].aov->location.str()));
             if (output.kind == AovKind::Matte) continue;
-            for (const MatteSource& matte : kMattes)
+            for (const MatteSource& matte : aov_source::kMattes)
                 if (output.name == matte.layer || is_rank_of(matte.layer, output.name))
                     throw SceneError(
                         origins_[i].aov->location,
@@ -372,7 +269,7 @@ class Planner {
         set_.lamp_count = scene_.lights.size();
         set_.instance_count = scene_.instances.size();
         try {
-            set_.automaton = std::make_shared<PathAutomaton>(expressions_, names_in(scene_));
+            set_.automaton = std::make_shared<PathAutomaton>(expressions_, path_names(scene_));
         } catch (const ExpressionError& error) {
             fail(*expression_sources_.back(), error.what());
         }
@@ -451,22 +348,6 @@ std::vector<std::string> layers_with_files(const AovPlan& plan, bool each_has_fi
     for (const AovOutput& output : plan.outputs)
         if (has_half(output)) names.push_back(half_name(output));
     return names;
-}
-
-std::string list_aov_sources() {
-    std::string list;
-    const auto line = [&](std::string_view name, std::string_view what) {
-        list += fmt::format("  {:<22} {}\n", name, what);
-    };
-    for (const OtherSource& source : {kPasses, kLights, kDenoising}) line(source.name, source.summary);
-    for (const FirstHitEntry& entry : first_hit_table()) line(entry.name, entry.summary);
-    for (const OtherSource& source : {kSamples, kVariance, kRays, kMean, kRemoved, kDeep})
-        line(source.name, source.summary);
-    line(kCryptomatte.name, kCryptomatte.summary);
-    for (const MatteSource& matte : kMattes) line(matte.name, matte.summary);
-    for (const UsualExpression& usual : usual_expressions())
-        line(usual.name, fmt::format("{} ({})", usual.summary, usual.expression));
-    return list;
 }
 
 }  // namespace etendue

@@ -37,7 +37,4 @@ inline constexpr std::string_view kHalf = "half";
 /// (`each_has_file`).
 [[nodiscard]] std::vector<std::string> layers_with_files(const AovPlan& plan, bool each_has_file);
 
-/// All sources with what they are, a line each, for --help.
-[[nodiscard]] std::string list_aov_sources();
-
 }  // namespace etendue

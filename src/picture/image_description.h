@@ -6,14 +6,12 @@
 #include "output/output_frame.h"
 #include "output/statistics.h"
 #include "picture/aov_setup.h"
-#include "render/checkpoint.h"
 #include "render/progressive_render.h"
 #include "scene/aov_desc.h"
 #include "scene/scene_desc.h"
 #include "world/world.h"
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,18 +37,6 @@ void describe_integrator(ImageDescription& description, const RenderSettings& se
 
 /// Puts in how the camera sees the world.
 void describe_camera(ImageDescription& description, const World& world);
-
-/// Returns `description` as text that `parse_description` understands.
-[[nodiscard]] std::string to_text(const ImageDescription& description);
-
-/// Reads the description in `text`, which stood in `file` with a film of the layers `layout`; throws IoError if `text`
-/// is not what `to_text` writes, or not of such a film.
-[[nodiscard]] ImageDescription parse_description(const std::string& text, const LayerLayout& layout,
-                                                 const std::filesystem::path& file);
-
-/// Reads the description in `kept`, a checkpoint or part that was read from `file`; throws IoError as
-/// `parse_description`.
-[[nodiscard]] ImageDescription description_of(const Checkpoint& kept, const std::filesystem::path& file);
 
 /// Puts in what the film and the counters of `state` say: pixels, window, samples, rays and seconds, and why rendering
 /// ended.

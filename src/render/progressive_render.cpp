@@ -23,6 +23,35 @@ Film empty_film(const SamplingOptions& options, const LayerLayout& layout) {
             options.splat_window.empty() ? options.window : options.splat_window, layout};
 }
 
+/// Times a tile for the profile, if there is one.
+class TileTimer {
+  public:
+    /// Begins, and lets `job` write its stages into the profile. `profile` may be null.
+    TileTimer(RenderProfile* profile, TileJob& job, int slot)
+        : profile_(profile), time_{.rect = job.rect, .slot = slot, .first_sample = job.first_sample} {
+        if (profile == nullptr) return;
+        stages_ = job.profile = &profile->wave(slot);
+        stages_->clock().skip();
+        time_.start = profile->now();
+        time_.cpu_seconds = -thread_cpu_seconds();
+    }
+
+    /// Ends once the tile is in the film.
+    void end(std::uint64_t samples) {
+        if (profile_ == nullptr) return;
+        stages_->clock().stamp(Stage::Film);
+        time_.samples = samples;
+        time_.end = profile_->now();
+        time_.cpu_seconds += thread_cpu_seconds();
+        profile_->add_tile(time_);
+    }
+
+  private:
+    RenderProfile* profile_;
+    WaveProfile* stages_ = nullptr;
+    TileTime time_;
+};
+
 }  // namespace
 
 Film make_film(const SamplingOptions& options) {
@@ -244,27 +273,14 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
             job.photons = &*photons_;
         }
         worker.counters.brightest.expect(options_.brightest, brightest_floor);
-        RenderProfile* const profile = options_.profile;
-        TileTime time{.rect = job.rect, .slot = slot, .first_sample = job.first_sample};
-        if (profile != nullptr) {
-            job.profile = &profile->wave(slot);
-            job.profile->clock().skip();
-            time.start = profile->now();
-            time.cpu_seconds = -thread_cpu_seconds();
-        }
+        TileTimer timer(options_.profile, job, slot);
         const std::uint64_t rays_before = worker.counters.rays.total();
         worker.tile.reset(job.rect, state_.film.layers().layout());
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
         add_tile(worker, second);
         is_done = 1;
         const std::uint64_t samples = camera_sample_count(job);
-        if (profile != nullptr) {
-            job.profile->clock().stamp(Stage::Film);
-            time.samples = samples;
-            time.end = profile->now();
-            time.cpu_seconds += thread_cpu_seconds();
-            profile->add_tile(time);
-        }
+        timer.end(samples);
         if (makes_splats) {
             splats_[order[index]].swap(worker.tile.splats());
             light_paths += samples;

@@ -97,7 +97,8 @@ using SettingType = std::variant<WholeNumber, RealNumber, YesNo, Name, Choice, F
 enum class Decides {
     Samples,   ///< pixels: what a sample is
     Sums,      ///< pixels: which sums are kept of the samples
-    Amount,    ///< which pixels get how many samples
+    Window,    ///< which pixels there are
+    End,       ///< when the render ends, and which pixels get more samples than others until then
     Display,   ///< how files show the sums
     Report,    ///< the report of the render
     Schedule,  ///< how the work is done, and nothing that a file holds
@@ -112,6 +113,9 @@ enum class Decides {
 [[nodiscard]] constexpr bool decides_files(Decides decides) {
     return decides != Decides::Schedule;
 }
+
+/// Says under which heading the help shows a setting.
+enum class SettingGroup { Transport, Samples, View, Scene, Animation, Files, Colour };
 
 /// Says how the value is read and written, where `RenderSettings` holds it.
 struct SettingPlace {
@@ -131,9 +135,11 @@ struct Setting {
     std::string_view help;            ///< a sentence without its full stop; names stand in backticks
     std::string_view page{};          ///< below docs/, for more: "adaptive.md#sampling"
     SettingPlace place;
+    SettingGroup group{};  ///< set by the table
 };
 
-/// Holds all settings of a render, in the order of the help. To add one, see CONTRIBUTING.md (A setting).
+/// Holds all settings of a render, group by group, in the order of the help. To add one, see CONTRIBUTING.md (A
+/// setting).
 [[nodiscard]] std::span<const Setting> settings_table();
 
 /// Returns the setting with this JSON pointer, or null.

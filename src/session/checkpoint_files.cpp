@@ -186,6 +186,18 @@ std::filesystem::path sums_path(const std::filesystem::path& output) {
     return std::filesystem::path(output).replace_extension(".sums");
 }
 
+void keep_sums(const std::filesystem::path& output, bool are_kept, const RenderIdentity& identity,
+               const std::string& description, const RenderState& state) {
+    const std::filesystem::path path = sums_path(output);
+    try {
+        if (are_kept) return write_checkpoint(path, identity, description, state);
+    } catch (const IoError& error) {
+        log_error("error: the sums were not kept: {}", error.what());
+    }
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+}
+
 std::optional<Checkpoint> read_sums(const std::filesystem::path& file, const CheckpointFiles::Expected& expected,
                                     int most_spp, bool quiet) {
     std::error_code error;

@@ -69,6 +69,11 @@ class CheckpointFiles {
 /// Returns the file that keeps the sums of the finished image `output`, so that more samples can go on from them.
 [[nodiscard]] std::filesystem::path sums_path(const std::filesystem::path& output);
 
+/// Writes the sums of the finished image `output` if `are_kept`, with its `description`. Otherwise, or if they cannot
+/// be written, which is said, removes those of an earlier image, which are of no more use.
+void keep_sums(const std::filesystem::path& output, bool are_kept, const RenderIdentity& identity,
+               const std::string& description, const RenderState& state);
+
 /// Reads the sums in `file`; none if there are none, or if they are of another render than what is expected or have
 /// more than `most_spp` samples. Warns of those that are damaged or cannot be read, unless `quiet`.
 [[nodiscard]] std::optional<Checkpoint> read_sums(const std::filesystem::path& file,

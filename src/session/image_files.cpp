@@ -157,6 +157,12 @@ std::filesystem::path preview_path(const std::filesystem::path& output) {
     return path.replace_extension(".preview.png");
 }
 
+void remove_preview(const std::filesystem::path& output) {
+    std::error_code ignored;
+    const std::filesystem::path preview = preview_path(output);
+    if (!std::filesystem::exists(OutputPaths::beside(preview).json, ignored)) std::filesystem::remove(preview, ignored);
+}
+
 std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& output,
                                                   std::span<const std::string> layers) {
     std::vector<std::filesystem::path> files{output, preview_path(output)};

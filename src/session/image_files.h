@@ -19,6 +19,9 @@ namespace etendue {
 /// Where SIGUSR1 has the image of that moment written.
 [[nodiscard]] std::filesystem::path preview_path(const std::filesystem::path& output);
 
+/// Removes what SIGUSR1 had written of the image before it was finished, unless the file is another image's.
+void remove_preview(const std::filesystem::path& output);
+
 /// Every file that a render of the image or part `output` may write; `layers` are the names of those that have files of
 /// their own.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& output,

@@ -6,6 +6,7 @@
 #include "output/auto_exposure.h"
 #include "output/preview_driver.h"
 #include "picture/aov_setup.h"
+#include "picture/description_text.h"
 #include "picture/image_description.h"
 #include "picture/integrator_choice.h"
 #include "picture/output_paths.h"
@@ -21,16 +22,16 @@
 #include "session/input_files.h"
 #include "session/interrupt.h"
 #include "session/library_versions.h"
+#include "session/output_checks.h"
 #include "session/phase_timer.h"
 #include "session/progress_display.h"
 #include "session/progress_pipe.h"
 #include "session/render_identity.h"
 #include "session/sequence_choice.h"
-#include "session/up_to_date.h"
+#include "session/showing_times.h"
+#include "session/world_statistics.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
@@ -43,54 +44,6 @@
 namespace etendue {
 
 namespace {
-
-void require_all_writable(const OutputPaths& paths) {
-    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
-        if (!path.empty()) require_writable(path);
-}
-
-/// After rendering, when the cache has held what it will. Look-ups that failed are an error to tell, not one to lose
-/// the image for.
-void fill_texture_statistics(const World& world, RenderStatistics& s) {
-    const WorldStatistics from = world.statistics();
-    s.textures = from.textures;
-    s.texture_bytes = from.texture_bytes;
-    s.textures_cached = from.textures_cached;
-    s.texture_cache_budget = from.texture_cache_budget;
-    s.failed_texture_lookups = from.failed_texture_lookups;
-    if (from.failed_texture_lookups > 0)
-        log_error("error: {} texture look-ups met broken pixels and read black: {}", from.failed_texture_lookups,
-                  from.first_texture_failure);
-}
-
-/// Says when the image may be shown again, so that showing it takes a tenth of the time at most, as long as one looks.
-class ShowingTimes {
-  public:
-    /// Returns true if the image may be shown. Safe to call from rendering threads.
-    [[nodiscard]] bool is_due() const { return !is_showing_ && Clock::now() >= next_.load(); }
-    /// Called when what is rendered is about to be shown.
-    void begin() {
-        begun_ = Clock::now();
-        is_showing_ = true;
-    }
-    /// Called when tiles have been finished; of calls after `begin` the first counts. All that came before belongs to
-    /// the price of showing, as what a stopped pass has to do again.
-    void go_on() {
-        if (!is_showing_) return;
-        const Clock::duration cost = Clock::now() - begun_;
-        next_ = Clock::now() + std::max<Clock::duration>(kLeast, 9 * cost);
-        is_showing_ = false;
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::milliseconds kFirst{50};  ///< from the beginning, so that there is something to show
-    static constexpr std::chrono::milliseconds kLeast{200};
-
-    Clock::time_point begun_{};
-    std::atomic<Clock::time_point> next_{Clock::now() + kFirst};
-    std::atomic<bool> is_showing_{false};
-};
 
 /// One render, step by step.
 class SceneRender {
@@ -118,7 +71,7 @@ class SceneRender {
         aovs_ = make_aov_plan(scene_, problems_);
         report_problems();
         options_.aovs = aovs_.set;
-        check_outputs();
+        check_outputs({request_, output_, scene_, aovs_, options_, *integrator_});
         hash_inputs(scene_, prepared.inputs);
         describe_scene(prepared, hash, requested);
     }
@@ -126,7 +79,7 @@ class SceneRender {
     SceneRenderResult run() {
         std::optional<Checkpoint> kept = read_kept();
         if (kept && is_finished_part(*kept)) {
-            for (RenderWatcher* const watcher : request_.watchers) watcher->enter("finished");
+            tell_watchers("finished");
             return finished_part(*kept);
         }
         if (kept && !request_.quiet)
@@ -154,32 +107,22 @@ class SceneRender {
         // An earlier image is worth more than a black one.
         if (!interrupted || rendered.counters.samples > 0) write(world, rendered, !interrupted);
         if (request_.overrides.has("/brightest") && !request_.quiet) list_brightest(description_.statistics);
-        if (!interrupted) checkpoints_.remove();
-        if (!interrupted && !is_partial(output_)) remove_preview();
-        if (!interrupted && !is_partial(output_)) keep_sums(rendered);
-        for (RenderWatcher* const watcher : request_.watchers) watcher->enter(interrupted ? "stopped" : "finished");
+        if (!interrupted) tidy_after(rendered);
+        tell_watchers(interrupted ? "stopped" : "finished");
         return {std::move(description_.statistics), output_, interrupted, false};
     }
 
   private:
-    [[nodiscard]] bool is_deep() const { return aovs_.set && aovs_.set->layout.is_deep; }
-
-    /// Returns true for a part that does not cover the whole image.
-    [[nodiscard]] bool is_crop() const { return options_.window != options_.splat_window; }
-
-    void require_crop_without_splats() const {
-        if (is_partial(output_) && is_crop() && is_deep() && integrator_->makes_splats())
-            throw SceneError({"--deep", {}},
-                             "a part that is a crop has no depths of the light that falls into others: render "
-                             "parts that are ranges of samples (--samples), or with 'path'");
-    }
-
     [[nodiscard]] RenderOptions options_of(const RenderSettings& settings) const {
         return is_partial(output_) ? make_part_options(settings, request_.samples) : make_render_options(settings);
     }
 
     void enter(std::string_view phase) const {
         progress_pipe_.enter(phase);
+        tell_watchers(phase);
+    }
+
+    void tell_watchers(std::string_view phase) const {
         for (RenderWatcher* const watcher : request_.watchers) watcher->enter(phase);
     }
 
@@ -199,58 +142,6 @@ class SceneRender {
     void report_problems() {
         for (; reported_ < problems_.all().size(); ++reported_)
             if (!request_.quiet) log_warning("{}", problems_.all()[reported_].str());
-    }
-
-    void check_outputs() const {
-        const std::vector<std::string> layers =
-            layers_with_files(aovs_, scene_.settings.aov_layout == AovLayout::Files);
-        require_inputs_kept(fmt::format("--output {}", output_.string()), files_of_image(output_, layers),
-                            scene_.inputs);
-        if (is_partial(output_)) {
-            if (intersection(options_.window, options_.splat_window) != options_.window)
-                throw SceneError(scene_.settings.at("/crop"),
-                                 "a part lies within the image and its overscan: give it --overscan as well");
-            require_crop_without_splats();
-            require_writable(output_);
-            return;
-        }
-        require_all_writable(paths_);
-        require_no_layer_of_another();
-        for (const std::string& layer : layers) require_free(layer);
-        const std::filesystem::path& strategies = request_.strategies.output;
-        if (strategies.empty()) return;
-        const OutputPaths pyramid = OutputPaths::beside(strategies);
-        require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()),
-                            std::array{pyramid.exr, pyramid.png}, scene_.inputs);
-        require_all_writable(pyramid);
-        require_strategies(scene_.settings, {"--strategies-image", {}});
-        check_strategies_request(request_.strategies, paths_, scene_.settings, options_, request_.overrides.depth);
-    }
-
-    /// The image may have the name of another one's layer: of NAME, if it is NAME.LAYER.
-    void require_no_layer_of_another() const {
-        const std::string name = output_.filename().string();
-        for (std::size_t dot = name.rfind('.', name.size() - output_.extension().string().size() - 1);
-             dot != std::string::npos && dot > 0; dot = name.rfind('.', dot - 1)) {
-            const OutputPaths other = OutputPaths::beside(output_.parent_path() / (name.substr(0, dot) + ".exr"));
-            const std::vector<std::string> of_other = listed_layer_files(other);
-            if (std::ranges::find(of_other, name) == of_other.end()) continue;
-            throw SceneError({}, fmt::format("{} is a layer of the image {}, as {} tells, and would be lost; give the "
-                                             "output another name, or remove the layer",
-                                             output_.string(), other.exr.string(), other.json.string()));
-        }
-    }
-
-    /// Another image may have the name of a layer.
-    void require_free(const std::string& layer) const {
-        const std::filesystem::path path = layer_path(output_, layer);
-        require_writable(path);
-        const std::filesystem::path other = OutputPaths::beside(path).json;
-        if (std::filesystem::exists(other))
-            throw SceneError(scene_.settings.at("/aov_layout"),
-                             fmt::format("the layer '{}' would be written to {}, which is an image of its own, as {} "
-                                         "tells; give the layer another name, or use another layout",
-                                         layer, path.string(), other.string()));
     }
 
     void describe_scene(PreparedScene& prepared, const std::string& hash, const std::string& requested) {
@@ -319,16 +210,8 @@ class SceneRender {
         World world = ray_code().compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_,
                                                problems_, {});
         report_problems();
-        const WorldStatistics from = world.statistics();
-        RenderStatistics& s = description_.statistics;
-        s.build = timer.elapsed();
-        s.isa = from.isa;
-        s.bvh_bytes = from.bvh_bytes;
-        s.bvh_build_seconds = from.bvh_build_seconds;
-        s.triangles = from.triangles;
-        s.instances = from.instances;
-        s.lights = from.lights;
-        s.missing_textures = from.missing_textures;
+        description_.statistics.build = timer.elapsed();
+        fill_world_statistics(world, description_.statistics);
         describe_camera(description_, world);
         return world;
     }
@@ -362,7 +245,7 @@ class SceneRender {
         settings_.integrator.type = choice.integrator;
         options_.adaptive = options_of(settings_).adaptive;
         integrator_ = create_integrator(settings_);
-        require_crop_without_splats();
+        require_depths_of_part(output_, options_, aovs_, *integrator_);
         describe_integrator(description_, settings_);
         description_.statistics.integrator_choice = choice.reason;
         const PhaseTime taken = timer.elapsed();
@@ -385,7 +268,7 @@ class SceneRender {
             return showings.is_due() &&
                    std::ranges::any_of(request_.watchers, [](const RenderWatcher* w) { return w->wants_image(); });
         };
-        for (RenderWatcher* const watcher : request_.watchers) watcher->enter("render");
+        tell_watchers("render");
         const RenderPause pause{
             [&] { return preview_requested() || checkpoint_is_due() || is_lost() || image_is_due(); },
             [&](const RenderState& now) {
@@ -421,26 +304,14 @@ class SceneRender {
         }
     }
 
-    /// Keeps the sums of the finished image if that is asked for; those of an earlier image are of no more use.
-    void keep_sums(const RenderResult& rendered) const {
-        const std::filesystem::path path = sums_path(output_);
-        const bool is_kept =
+    /// Leaves the files of a finished image, and its sums if they are to be kept.
+    void tidy_after(const RenderResult& rendered) const {
+        checkpoints_.remove();
+        if (is_partial(output_)) return;
+        remove_preview(output_);
+        const bool are_sums_kept =
             request_.keep_sums_after && description_.statistics.render.wall >= *request_.keep_sums_after;
-        try {
-            if (is_kept) return etendue::write_checkpoint(path, identity_, to_text(description_), rendered);
-        } catch (const IoError& error) {
-            log_error("error: the sums were not kept: {}", error.what());
-        }
-        std::error_code ignored;
-        std::filesystem::remove(path, ignored);
-    }
-
-    /// Removes what SIGUSR1 had written of the image before it was finished, unless the file is another image's.
-    void remove_preview() const {
-        std::error_code ignored;
-        const std::filesystem::path preview = preview_path(output_);
-        if (!std::filesystem::exists(OutputPaths::beside(preview).json, ignored))
-            std::filesystem::remove(preview, ignored);
+        keep_sums(output_, are_sums_kept, identity_, to_text(description_), rendered);
     }
 
     /// Shows the image as it is to whoever looks on.

@@ -95,12 +95,8 @@ std::string changes(const nlohmann::json& statistics, const RenderSettings& sett
     return "";
 }
 
-/// Holds the settings that say only when a render ends, and which of its pixels get more samples than others until
-/// then.
-constexpr std::array<std::string_view, 5> kEnds{"/spp", "/time", "/error", "/adaptive", "/min_spp"};
-
 bool is_end(const Setting& setting) {
-    return std::ranges::find(kEnds, setting.pointer) != kEnds.end();
+    return setting.decides == Decides::End;
 }
 
 /// True for settings that say how the sums are shown, or what is told of them.

@@ -93,9 +93,9 @@ Vertex surface_vertex(const World& world, const ArrivingRay& arriving, float nan
     SurfacePoint& point = vertex.surface;
     vertex.crossing = crossing_at(world, point, arriving);
     vertex.position = point.position;
-    vertex.kind = vertex.crossing && vertex.crossing->is_hidden ? Vertex::Kind::Boundary
-                  : point.material->unlit                       ? Vertex::Kind::Unlit
-                                                                : Vertex::Kind::Surface;
+    vertex.kind = vertex.crossing && vertex.crossing->is_covered ? Vertex::Kind::Boundary
+                  : point.material->unlit                        ? Vertex::Kind::Unlit
+                                                                 : Vertex::Kind::Surface;
     if (vertex.kind != Vertex::Kind::Surface) return vertex;
     // Where the index depends on the wavelength, a path of all of them takes one to go on with.
     vertex.wavelength = {nanometres, Rgb(1.0f)};

@@ -21,7 +21,7 @@ struct Crossing {
     Interior outside{};  ///< where it is, or will be, on the front side of the surface
     Interior inside{};   ///< and on the back
     /// Another body fills the space on both sides: there is no boundary to see here.
-    bool is_hidden = false;
+    bool is_covered = false;
     float outside_ior = 1.0f;
     float outside_dispersion = 0.0f;
     float inside_ior = 1.0f;

@@ -200,28 +200,27 @@ void extend_bounds(const Instance& instance, std::span<const Mat4f> transforms, 
     }
 }
 
-}  // namespace
-
-void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t most_copied, WorldData& data) {
-    std::vector<std::uint32_t> uses(scene.meshes.size(), 0);
-    for (const InstanceDesc& desc : scene.instances) ++uses[static_cast<std::size_t>(desc.mesh.index)];
-
-    const std::vector<bool> is_copied = meshes_to_copy(scene, uses, most_copied);
-
+/// Moves the meshes that have a place into `data`, with tangents. Returns the first geometry of each mesh.
+std::vector<std::uint32_t> take_meshes(SceneDesc& scene, std::span<const std::uint32_t> uses, const ThreadPool& threads,
+                                       WorldData& data) {
     std::vector<std::uint32_t> first_geometry(scene.meshes.size(), 0);
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         first_geometry[m] = static_cast<std::uint32_t>(data.geometries.size());
         if (uses[m] == 0) continue;
         for (PrimitiveDesc& primitive : scene.meshes[m].primitives) data.geometries.push_back(take_geometry(primitive));
     }
-
     threads.parallel_for(data.geometries.size(), [&](std::size_t g, int) {
         Geometry& geometry = data.geometries[g];
         const TextureSlot* texture = data.materials[geometry.material].tangent_texture();
         if (texture != nullptr && geometry.tangents.empty()) add_tangents(geometry, *texture);
     });
+    return first_geometry;
+}
 
-    std::vector<std::uint32_t> places_left = uses;  // the last place takes the mesh itself
+/// Makes the instances, and the copies of meshes that some of them have to themselves.
+void place_meshes(const SceneDesc& scene, std::span<const std::uint32_t> uses, const std::vector<bool>& is_copied,
+                  std::span<const std::uint32_t> first_geometry, WorldData& data) {
+    std::vector<std::uint32_t> places_left(uses.begin(), uses.end());  // the last place takes the mesh itself
     std::uint32_t light_slots = 0;
     for (const InstanceDesc& desc : scene.instances) {
         const auto mesh = static_cast<std::size_t>(desc.mesh.index);
@@ -248,13 +247,18 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t m
         data.instances.push_back(instance);
     }
     data.light_of_slot.assign(light_slots, kNone);
+}
 
+void bake_instances(const SceneDesc& scene, const ThreadPool& threads, WorldData& data) {
     threads.parallel_for(data.instances.size(), [&](std::size_t i, int) {
         const Instance& instance = data.instances[i];
         if (!instance.baked) return;
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
             bake(data.geometries[instance.first_geometry + g], scene.instances[i].to_world);
     });
+}
+
+void bound_instances(const ThreadPool& threads, WorldData& data) {
     std::vector<Bounds> local_bounds(data.geometries.size());
     threads.parallel_for(data.geometries.size(),
                          [&](std::size_t g, int) { local_bounds[g] = bounds_of(data.geometries[g]); });
@@ -263,6 +267,18 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t m
         extend_bounds(instance, instance.motion == kNone ? here : data.motions[instance.motion], local_bounds,
                       data.bounds);
     }
+}
+
+}  // namespace
+
+void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t most_copied, WorldData& data) {
+    std::vector<std::uint32_t> uses(scene.meshes.size(), 0);
+    for (const InstanceDesc& desc : scene.instances) ++uses[static_cast<std::size_t>(desc.mesh.index)];
+    const std::vector<bool> is_copied = meshes_to_copy(scene, uses, most_copied);
+    const std::vector<std::uint32_t> first_geometry = take_meshes(scene, uses, threads, data);
+    place_meshes(scene, uses, is_copied, first_geometry, data);
+    bake_instances(scene, threads, data);
+    bound_instances(threads, data);
 }
 
 }  // namespace etendue

@@ -73,66 +73,80 @@ Rgb mean_emission(const WorldData& data, const Material& material) {
     return mean;
 }
 
-void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemList& problems) {
-    std::size_t triangle_count = 0;
-    std::size_t skipped = 0;
+/// Counts the emitting surfaces and triangles that are found by chance only, and why.
+struct UnsampledEmitters {
+    std::size_t skipped = 0;  ///< triangles beyond the limit
     std::size_t moving = 0;
-    std::size_t uneven = 0;
+    std::size_t uneven = 0;  ///< elliptic cylinders
+};
+
+/// Adds the light of what the geometry `index` of instance `i` emits, which fills `slot`. Returns false if its shape
+/// cannot be sampled.
+bool add_surface_light(std::size_t i, std::uint32_t index, std::uint32_t slot, WorldData& data) {
+    const Instance& instance = data.instances[i];
+    const Geometry& geometry = data.geometries[index];
+    const Material& material = data.materials[geometry.material];
+    const bool shares_place = !data.shares_place_of_slot.empty() && data.shares_place_of_slot[slot] != 0;
+    const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque &&
+                         !material.has_coat && !shares_place && material.beam.is_matte();
+    // Rays from it and to it pass what touches it.
+    const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
+    const Vec3f error = max_components(mesh_position_error(geometry, instance), Vec3f(reach));
+    const auto light_number = static_cast<std::uint32_t>(data.lights.size());
+    if (geometry.shape) {
+        const ExactShape shape = geometry.shape->placed(instance.to_world);
+        if (!ShapeLight::can_be(shape)) return false;
+        data.lights.emplace_back(ShapeLight(shape, material.emission, mean_emission(data, material),
+                                            material.emits_both_sides, uniform, error, material.beam));
+    } else {
+        MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
+                        material.emits_both_sides, instance.mirrors, uniform, error, material.beam);
+        if (!(light.area() > 0.0f)) return true;
+        data.lights.emplace_back(std::move(light));
+    }
+    data.light_of_slot[slot] = light_number;
+    data.emitter_of_light.push_back({.instance = static_cast<std::uint32_t>(i), .geometry = index});
+    return true;
+}
+
+void note_unsampled(const UnsampledEmitters& unsampled, std::size_t most_triangles, ProblemList& problems) {
+    if (unsampled.uneven > 0)
+        problems.note({}, std::to_string(unsampled.uneven) +
+                              " emissive elliptic cylinders will be found by chance only: small ones give noise. Scale "
+                              "them evenly to have them sampled");
+    if (unsampled.moving > 0)
+        problems.note({}, std::to_string(unsampled.moving) +
+                              " emissive surfaces move while the shutter is open and will be found "
+                              "by chance only: small ones give noise");
+    if (unsampled.skipped > 0)
+        problems.warning({}, std::to_string(unsampled.skipped) + " emissive triangles are beyond the limit of " +
+                                 std::to_string(most_triangles) +
+                                 " for light sampling and will be found by chance only: expect noise");
+}
+
+void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemList& problems) {
+    UnsampledEmitters unsampled;
+    std::size_t triangle_count = 0;
     for (std::size_t i = 0; i < data.instances.size(); ++i) {
         const Instance& instance = data.instances[i];
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const std::uint32_t index = instance.first_geometry + g;
             const Geometry& geometry = data.geometries[index];
-            const Material& material = data.materials[geometry.material];
-            if (!material.emits || geometry.is_empty()) continue;
+            if (!data.materials[geometry.material].emits || geometry.is_empty()) continue;
             if (instance.motion != kNone || !geometry.motion.empty()) {
-                ++moving;
+                ++unsampled.moving;
                 continue;
             }
             if (triangle_count + geometry.triangles.size() > most_triangles) {
-                skipped += geometry.triangles.size();
+                unsampled.skipped += geometry.triangles.size();
                 continue;
             }
             triangle_count += geometry.triangles.size();
-            const std::uint32_t slot = instance.first_light_slot + g;
-            const bool shares_place = !data.shares_place_of_slot.empty() && data.shares_place_of_slot[slot] != 0;
-            const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque &&
-                                 !material.has_coat && !shares_place && material.beam.is_matte();
-            // Rays from it and to it pass what touches it.
-            const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
-            const Vec3f error = max_components(mesh_position_error(geometry, instance), Vec3f(reach));
-            if (geometry.shape) {
-                const ExactShape shape = geometry.shape->placed(instance.to_world);
-                if (!ShapeLight::can_be(shape)) {
-                    ++uneven;
-                    continue;
-                }
-                data.light_of_slot[slot] = static_cast<std::uint32_t>(data.lights.size());
-                data.lights.emplace_back(ShapeLight(shape, material.emission, mean_emission(data, material),
-                                                    material.emits_both_sides, uniform, error, material.beam));
-            } else {
-                MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
-                                material.emits_both_sides, instance.mirrors, uniform, error, material.beam);
-                if (!(light.area() > 0.0f)) continue;
-                data.light_of_slot[slot] = static_cast<std::uint32_t>(data.lights.size());
-                data.lights.emplace_back(std::move(light));
-            }
-            data.emitter_of_light.push_back({.instance = static_cast<std::uint32_t>(i), .geometry = index});
+            if (!add_surface_light(i, index, instance.first_light_slot + g, data)) ++unsampled.uneven;
         }
     }
-    data.has_unsampled_emitters = moving > 0 || skipped > 0 || uneven > 0;
-    if (uneven > 0)
-        problems.note({}, std::to_string(uneven) +
-                              " emissive elliptic cylinders will be found by chance only: small ones give noise. Scale "
-                              "them evenly to have them sampled");
-    if (moving > 0)
-        problems.note({}, std::to_string(moving) +
-                              " emissive surfaces move while the shutter is open and will be found "
-                              "by chance only: small ones give noise");
-    if (skipped > 0)
-        problems.warning({}, std::to_string(skipped) + " emissive triangles are beyond the limit of " +
-                                 std::to_string(most_triangles) +
-                                 " for light sampling and will be found by chance only: expect noise");
+    data.has_unsampled_emitters = unsampled.moving > 0 || unsampled.skipped > 0 || unsampled.uneven > 0;
+    note_unsampled(unsampled, most_triangles, problems);
 }
 
 }  // namespace

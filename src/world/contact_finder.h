@@ -4,6 +4,7 @@
 #include "core/bounds.h"
 #include "core/parallel.h"
 #include "core/vec.h"
+#include "world/placed_triangle.h"
 #include "world/world_data.h"
 
 #include <array>
@@ -14,16 +15,6 @@
 #include <vector>
 
 namespace etendue {
-
-/// A triangle of an instance in world space, in the middle of the shutter.
-struct PlacedTriangle {
-    std::array<Vec3d, 3> p;
-    Vec3d normal;  ///< unit, on the front
-    double area = 0.0;
-    double clearance = 0.0;
-
-    [[nodiscard]] bool is_degenerate() const { return !(area > 0.0); }
-};
 
 struct Slot {
     std::uint32_t index = 0;
@@ -50,9 +41,6 @@ struct Touches {
 /// Returns how many triangles of `geometry` may touch others. A disk counts as the one around it; shapes that are not
 /// flat have none.
 [[nodiscard]] std::uint32_t touching_triangles(const Geometry& geometry);
-
-[[nodiscard]] PlacedTriangle place(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
-                                   std::uint32_t triangle);
 
 /// Triangles that are looked at in all, some seconds of it.
 inline constexpr std::size_t kMostWorkForTouches = std::size_t{1} << 24;

@@ -32,6 +32,7 @@ struct HitFilter {
 /// Opacity of a triangle at a point, [0, 1].
 using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric);
 
+struct EmbreeGeometryMaker;
 struct EmbreeShape;
 
 /// Owns the Embree device and scenes. Baked geometry sits in the top-level scene; a shared mesh has a scene of its own,
@@ -86,6 +87,12 @@ class EmbreeScene {
     }
 
   private:
+    /// Adds all instances to the top-level scene, and the meshes that some share.
+    void add_instances(const EmbreeGeometryMaker& maker, std::span<const Instance> instances,
+                       std::span<const TransformMotion> motions);
+    /// Returns whether the scene holds anything of the instance's geometry with this number.
+    [[nodiscard]] bool is_taken(const Instance& instance, std::uint32_t geometry) const;
+
     // A `Batch` is a span of rays or RayColumns.
     template <typename Batch>
     void intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
@@ -120,8 +127,5 @@ class EmbreeScene {
     std::vector<std::unique_ptr<const EmbreeShape>> shapes_;  ///< to which Embree points
     bool has_panes_ = false;
 };
-
-/// Says in words how all BVHs are built.
-[[nodiscard]] std::string bvh_quality();
 
 }  // namespace etendue

@@ -1,5 +1,6 @@
 #include "world/light_emitter.h"
 
+#include "core/overloaded.h"
 #include "world/material.h"
 #include "world/materials.h"
 #include "world/media.h"
@@ -95,19 +96,19 @@ Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool
 
 SurfaceEmission LightEmitter::surface_emission(const Emission& emission, const Vec3f& direction) const {
     const Light& light = data_.lights[emission.light];
-    const MeshLight* mesh = std::get_if<MeshLight>(&light);
-    const ShapeLight* shape = std::get_if<ShapeLight>(&light);
-    if (mesh == nullptr && shape == nullptr) return {};
+    if (is_delta_light(light) || is_at_infinity(light)) return {};
     const Geometry& geometry = data_.geometries[data_.emitter_of_light[emission.light].geometry];
     if (!data_.materials[geometry.material].visible_to_camera) return {};
     const EmissionSample& sample = emission.sample;
-    Vec3f normal(0.0f);
-    if (mesh != nullptr) {
-        const LightTriangle& t = mesh->triangle(sample.triangle);
-        normal = triangle_normal(t.edge1, t.edge2);
-    } else {
-        normal = shape->shape().point(shape_place(sample.triangle, sample.barycentric)).normal;
-    }
+    const Vec3f normal = of_surface_light(
+        light, Vec3f(0.0f),
+        Overloaded{[&](const MeshLight& mesh) {
+                       const LightTriangle& t = mesh.triangle(sample.triangle);
+                       return triangle_normal(t.edge1, t.edge2);
+                   },
+                   [&](const ShapeLight& shape) {
+                       return shape.shape().point(shape_place(sample.triangle, sample.barycentric)).normal;
+                   }});
     return {mesh_emission(data_, materials_, emission.light, sample.triangle, sample.barycentric, direction),
             abs_dot(normal, direction)};
 }
@@ -133,8 +134,9 @@ float LightEmitter::pdf(const EmittedRay& ray, bool aims) const {
 }
 
 float LightEmitter::pdf_area(std::uint32_t light, const Vec3f& on_light) const {
-    const ShapeLight* shape = std::get_if<ShapeLight>(&data_.lights[light]);
-    return shape != nullptr ? shape->pdf_area(on_light) : 1.0f / std::get<MeshLight>(data_.lights[light]).area();
+    return of_surface_light(data_.lights[light], 0.0f,
+                            Overloaded{[&](const MeshLight& mesh) { return 1.0f / mesh.area(); },
+                                       [&](const ShapeLight& shape) { return shape.pdf_area(on_light); }});
 }
 
 }  // namespace etendue

@@ -1,5 +1,6 @@
 #include "world/light_sampler.h"
 
+#include "core/overloaded.h"
 #include "world/contacts.h"
 #include "world/materials.h"
 #include "world/mesh_emission.h"
@@ -40,20 +41,23 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
     const float cos_light = -dot(direction, point.geometric_normal);
     const float choice = probability(from, light);
     // Where no light needs it, `from` may mean nothing.
-    const auto seen_from = [&](const auto& lamp) {
-        return lamp.needs_exact_point() ? from.position : point.position - direction * distance;
+    const auto seen_from = [&](const auto& surface) {
+        return surface.needs_exact_point() ? from.position : point.position - direction * distance;
     };
-    if (const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light]))
-        return mesh->pdf_solid_angle(point.triangle, seen_from(*mesh), distance, cos_light) * choice;
-    const ShapeLight& shape = std::get<ShapeLight>(data_.lights[light]);
-    return shape.pdf_solid_angle(seen_from(shape), point.position, cos_light) * choice;
+    return of_surface_light(
+        data_.lights[light], 0.0f,
+        Overloaded{[&](const MeshLight& mesh) {
+                       return mesh.pdf_solid_angle(point.triangle, seen_from(mesh), distance, cos_light) * choice;
+                   },
+                   [&](const ShapeLight& shape) {
+                       return shape.pdf_solid_angle(seen_from(shape), point.position, cos_light) * choice;
+                   }});
 }
 
 float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {
-    if (const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light]))
-        return mesh->gain(triangle, on_light, point);
-    const ShapeLight* shape = std::get_if<ShapeLight>(&data_.lights[light]);
-    return shape != nullptr ? shape->gain(on_light, point) : 1.0f;
+    return of_surface_light(data_.lights[light], 1.0f,
+                            Overloaded{[&](const MeshLight& mesh) { return mesh.gain(triangle, on_light, point); },
+                                       [&](const ShapeLight& shape) { return shape.gain(on_light, point); }});
 }
 
 }  // namespace etendue

@@ -65,7 +65,7 @@ Crossing Media::crossing(const SurfacePoint& point, const Interior& current) con
     crossing.outside.leave(body);
     crossing.inside = crossing.outside;
     crossing.inside.enter(body);
-    crossing.is_hidden = crossing.inside.filling() != body;
+    crossing.is_covered = crossing.inside.filling() != body;
     set_indices(data_, body, crossing);
     return crossing;
 }
@@ -83,8 +83,8 @@ Crossing Media::contact_crossing(SurfacePoint& point, const Interior& current, c
     const bool from_front = dot(ray.direction, point.geometric_normal) < 0.0f;
     Crossing crossing{.outside = from_front ? around.before : around.behind,
                       .inside = from_front ? around.behind : around.before,
-                      .is_hidden = face == nullptr};
-    if (!crossing.is_hidden) set_indices(data_, body, crossing);
+                      .is_covered = face == nullptr};
+    if (!crossing.is_covered) set_indices(data_, body, crossing);
     return crossing;
 }
 

@@ -31,9 +31,7 @@ bool is_foremost_emitter(const WorldData& data, const SurfacePoint& point, Vec2f
 }  // namespace
 
 bool has_uneven_emission(const WorldData& data, std::uint32_t light) {
-    if (const ShapeLight* shape = std::get_if<ShapeLight>(&data.lights[light])) return !shape->is_uniform();
-    const MeshLight* mesh = std::get_if<MeshLight>(&data.lights[light]);
-    return mesh != nullptr && !mesh->is_uniform();
+    return of_surface_light(data.lights[light], false, [](const auto& surface) { return !surface.is_uniform(); });
 }
 
 Rgb mesh_emission(const WorldData& data, const Materials& materials, std::uint32_t light, std::uint32_t triangle,

@@ -10,10 +10,12 @@
 namespace etendue {
 
 SceneCamera::SceneCamera(const WorldData& data, const SceneTraits& traits) : data_(data), traits_(traits) {
-    for (const Light& light : data_.lights) {
-        if (const auto* mesh = std::get_if<MeshLight>(&light)) lamp_bounds_.push_back(mesh->bounds().box);
-        if (const auto* shape = std::get_if<ShapeLight>(&light)) lamp_bounds_.push_back(shape->bounds().box);
-    }
+    for (const Light& light : data_.lights)
+        std::visit(
+            [&]<typename Kind>(const Kind& l) {
+                if constexpr (kIsSurfaceLight<Kind>) lamp_bounds_.push_back(l.bounds().box);
+            },
+            light);
     constexpr std::size_t kMostBounds = 1024;
     if (lamp_bounds_.size() > kMostBounds) lamp_bounds_ = {data_.bounds};
 }

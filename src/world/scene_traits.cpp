@@ -34,9 +34,7 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
                                    [&](const Geometry& g) { return is_such(data.materials[g.material]); });
     };
     const auto needs_exact_point = [](const Light& light) {
-        if (const ShapeLight* shape = std::get_if<ShapeLight>(&light)) return shape->needs_exact_point();
-        const MeshLight* mesh = std::get_if<MeshLight>(&light);
-        return mesh != nullptr && mesh->needs_exact_point();
+        return of_surface_light(light, false, [](const auto& surface) { return surface.needs_exact_point(); });
     };
     SceneTraits traits;
     traits.has_textures = !data.textures.empty();

@@ -100,6 +100,20 @@ SurfacePoint begin_point(const WorldData& data, std::uint32_t instance, std::uin
     return point;
 }
 
+/// Returns the mesh's tangent at a point of it and, as `w`, the sign of its bitangent; a tangent of length 0 if it has
+/// none.
+Vec4f mesh_tangent(const Geometry& geometry, const std::array<std::uint32_t, 3>& triangle, Vec2f barycentric) {
+    if (geometry.tangents.empty()) return {0.0f, 0.0f, 0.0f, 1.0f};
+    const Vec4f tangent = interpolate(geometry.tangents, triangle, barycentric);
+    return {tangent.x, tangent.y, tangent.z, geometry.tangents[triangle[0]].w};
+}
+
+/// Returns the frame around `normal` along `tangent`, or along anything if that has length 0.
+Frame frame_around(const Vec3f& normal, const Vec3f& tangent) {
+    return length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent)
+                                          : Frame::from_normal(normal);
+}
+
 /// `Moves` is false for what neither moves nor deforms, so that it does not pay for what does.
 template <bool Moves>
 SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
@@ -130,13 +144,9 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
     point.uv[1] = interpolate_uv(geometry.uv1, triangle, barycentric);
     if (!geometry.colors.empty()) point.color = interpolate(geometry.colors, triangle, barycentric);
 
-    Vec3f tangent(0.0f);
-    float bitangent_sign = 1.0f;
-    if (!geometry.tangents.empty()) {
-        const Vec4f t = interpolate(geometry.tangents, triangle, barycentric);
-        tangent = {t.x, t.y, t.z};
-        bitangent_sign = geometry.tangents[triangle[0]].w;
-    }
+    const Vec4f signed_tangent = mesh_tangent(geometry, triangle, barycentric);
+    Vec3f tangent(signed_tangent.x, signed_tangent.y, signed_tangent.z);
+    float bitangent_sign = signed_tangent.w;
 
     const bool moves = Moves && instance.motion != kNone;
     const Mat4f moved_to_world =
@@ -162,8 +172,7 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
         add_footprints(geometry, to_scene(e1), to_scene(e2), section, point);
     }
     const Vec3f normal = is_smooth ? usable_normal(shading, point.geometric_normal) : point.geometric_normal;
-    point.shading =
-        length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent) : Frame::from_normal(normal);
+    point.shading = frame_around(normal, tangent);
     if (material.needs_tangents() || material.has_coat) apply_relief(data, material, bitangent_sign, point);
     return point;
 }

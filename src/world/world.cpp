@@ -4,7 +4,7 @@
 #include "core/vector_bytes.h"
 #include "light/light.h"
 #include "world/contacts.h"
-#include "world/embree_scene.h"
+#include "world/embree_geometry_maker.h"
 
 #include <utility>
 

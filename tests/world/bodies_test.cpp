@@ -54,10 +54,10 @@ TEST(Bodies, AnInnerBoundaryIsRelativeToWhatSurroundsIt) {
     add_ball(scene, {0, 0, 0}, 1.0f, body(1.5f));
     const World world = compile(std::move(scene));
     const Crossing outer = crossing_from(world, 5.0f, Interior());
-    EXPECT_FALSE(outer.is_hidden);
+    EXPECT_FALSE(outer.is_covered);
     EXPECT_FLOAT_EQ(outer.relative_ior(0.0f), 1.33f);
     const Crossing inner = crossing_from(world, 1.5f, outer.inside);
-    EXPECT_FALSE(inner.is_hidden) << "the smaller one fills the space";
+    EXPECT_FALSE(inner.is_covered) << "the smaller one fills the space";
     EXPECT_FLOAT_EQ(inner.relative_ior(0.0f), 1.5f / 1.33f);
     // From within, the same boundary says the same.
     EXPECT_FLOAT_EQ(crossing_from(world, 0.0f, inner.inside).relative_ior(0.0f), 1.5f / 1.33f);
@@ -70,9 +70,9 @@ TEST(Bodies, PriorityHidesABoundary) {
     const World world = compile(std::move(scene));
     const Crossing outer = crossing_from(world, 5.0f, Interior());
     const Crossing inner = crossing_from(world, 1.5f, outer.inside);
-    EXPECT_TRUE(inner.is_hidden);
-    EXPECT_TRUE(crossing_from(world, 0.0f, inner.inside).is_hidden);
-    EXPECT_FALSE(crossing_from(world, -1.5f, outer.inside).is_hidden);
+    EXPECT_TRUE(inner.is_covered);
+    EXPECT_TRUE(crossing_from(world, 0.0f, inner.inside).is_covered);
+    EXPECT_FALSE(crossing_from(world, -1.5f, outer.inside).is_covered);
 }
 
 TEST(Bodies, PartsOfOneMeshAreOneBoundary) {
@@ -83,9 +83,9 @@ TEST(Bodies, PartsOfOneMeshAreOneBoundary) {
     place(scene, add_mesh(scene, {front, back}));
     const World world = compile(std::move(scene));
     const Crossing in = crossing_from(world, 0.0f, Interior());
-    EXPECT_FALSE(in.is_hidden);
+    EXPECT_FALSE(in.is_covered);
     const Crossing out = crossing_from(world, -1.5f, in.inside);
-    EXPECT_FALSE(out.is_hidden);
+    EXPECT_FALSE(out.is_covered);
     EXPECT_TRUE(out.outside.is_empty());
     EXPECT_FLOAT_EQ(out.relative_ior(0.0f), 1.5f);
 }

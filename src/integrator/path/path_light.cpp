@@ -248,15 +248,15 @@ void PathLight::queue_shadow_rays(const PathContext& context, const LaneList& pa
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += paths.size();
     if (paths_.words.are_followed() || context.world.traits().has_bodies) {
         for (const std::size_t k : paths)
-            if (block_.paths[k].is_wide && block_.lanes.arrives[k] != 0.0f) queue_lane(context, k, round);
+            if (block_.paths[k].is_wide && block_.lanes.arrives[k] != 0.0f) queue_shadow_ray_of_lane(context, k, round);
     } else {
-        queue_all_lanes(context, round);
+        queue_shadow_rays_of_lanes(context, round);
     }
     for (const std::size_t k : paths)
-        if (!block_.paths[k].is_wide) queue_singly(context, k, round);
+        if (!block_.paths[k].is_wide) queue_shadow_ray_of_single(context, k, round);
 }
 
-void PathLight::queue_all_lanes(const PathContext& context, std::uint32_t round) {
+void PathLight::queue_shadow_rays_of_lanes(const PathContext& context, std::uint32_t round) {
     const bool has_transparency = context.world.traits().has_transparency;
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
         const std::size_t i = block_.first + l;
@@ -277,7 +277,7 @@ void PathLight::queue_all_lanes(const PathContext& context, std::uint32_t round)
     }
 }
 
-void PathLight::queue_singly(const PathContext& context, std::size_t k, std::uint32_t round) {
+void PathLight::queue_shadow_ray_of_single(const PathContext& context, std::size_t k, std::uint32_t round) {
     const SingleShading& path = block_.singles[k];
     const LightSample& light = block_.lights[k].sample;
     if (is_black(light.radiance) || is_black(path.towards_light.f_cos)) return;
@@ -298,7 +298,7 @@ void PathLight::queue_singly(const PathContext& context, std::size_t k, std::uin
                                     : VertexEvent{});
 }
 
-void PathLight::queue_lane(const PathContext& context, std::size_t k, std::uint32_t round) {
+void PathLight::queue_shadow_ray_of_lane(const PathContext& context, std::size_t k, std::uint32_t round) {
     Rgb contribution = block_.lanes.contribution[k];
     if (context.world.traits().has_bodies)
         contribution *=
@@ -321,8 +321,8 @@ LightNumbers PathLight::draw_numbers(const PathContext& context, std::size_t k, 
     return {draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
 }
 
-void PathLight::queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
-                                const HomogeneousMedium& medium) {
+void PathLight::queue_shadow_rays_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
+                                            const HomogeneousMedium& medium) {
     const std::size_t i = block_.first + k;
     const std::uint32_t samples = paths_.light_samples(context, i, path_history::kOnlyDeltas);
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += samples;

@@ -57,8 +57,8 @@ class PathLight {
     /// Queues shadow rays from `paths` to the lights that the block has sampled.
     void queue_shadow_rays(const PathContext& context, const LaneList& paths, std::uint32_t round);
     /// Samples all lights of path `k`, which `medium` has scattered at `position`, and queues the shadow rays.
-    void queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
-                         const HomogeneousMedium& medium);
+    void queue_shadow_rays_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
+                                     const HomogeneousMedium& medium);
 
     [[nodiscard]] std::size_t bytes() const;
 
@@ -85,10 +85,10 @@ class PathLight {
     // The sample of path `k`, from the lanes or to them.
     void take_from_lanes(std::size_t k);
     void put_into_lanes(std::size_t k);
-    void queue_singly(const PathContext& context, std::size_t k, std::uint32_t round);
-    void queue_lane(const PathContext& context, std::size_t k, std::uint32_t round);
+    void queue_shadow_ray_of_single(const PathContext& context, std::size_t k, std::uint32_t round);
+    void queue_shadow_ray_of_lane(const PathContext& context, std::size_t k, std::uint32_t round);
     /// Queues the shadow rays of all paths that are wide, at once, where no words are followed and there are no bodies.
-    void queue_all_lanes(const PathContext& context, std::uint32_t round);
+    void queue_shadow_rays_of_lanes(const PathContext& context, std::uint32_t round);
     /// Draws the numbers for the `round`-th light sample of path `k` alone.
     [[nodiscard]] LightNumbers draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const;
     /// Queues `ray` of path `k` towards `light` with its `contribution`; `event` is how the vertex scatters towards

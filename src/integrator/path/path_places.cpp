@@ -43,7 +43,7 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
             crossing_at(world, point, {paths_.ray(i), paths_.interiors[i], paths_.hits[i], paths_.cone(i)});
     if (point.material->is_pane) block_.panes[k] = {paths_.receiver(i), paths_.metres_passed(i) + paths_.hits[i].t};
     block_.on_emitter.add_if(point.material->emits, k);
-    if (block_.singles[k].crossing && block_.singles[k].crossing->is_hidden) {
+    if (block_.singles[k].crossing && block_.singles[k].crossing->is_covered) {
         block_.on_hidden.add(k);
         block_.lanes.goes_on.set(k, 1.0f);
         return false;

@@ -140,7 +140,7 @@ bool PathScattering::scatter_in_medium(const PathContext& context, std::size_t k
     const Vec3f position = paths_.origin[i] - wo * sample.distance;
     const bool samples_lights = context.samples_lights() && context.world.traits().has_lights_in_media;
     if (samples_lights && context.settings.lengths.is_long_enough(paths_.edges(i)))
-        light_.queue_in_medium(context, k, position, *medium);
+        light_.queue_shadow_rays_in_medium(context, k, position, *medium);
     const Vec3f direction = medium->phase.sample(wo, block_.bsdf_direction[k]);
     const float pdf_solid_angle = medium->phase.pdf_solid_angle(wo, direction);
     paths_.origin.set(i, position);

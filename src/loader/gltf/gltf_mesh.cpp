@@ -2,6 +2,7 @@
 
 #include "loader/gltf/gltf_draco.h"
 #include "loader/gltf/gltf_value.h"
+#include "loader/gltf/gltf_variants.h"
 #include "loader/gltf/repair_log.h"
 #include "loader/gltf/vertex_data.h"
 #include "scene/material_textures.h"
@@ -335,20 +336,6 @@ class PrimitiveReader {
     bool failed_ = false;
 };
 
-/// KHR_materials_variants: the materials that the primitive has in other variants of the file.
-std::vector<VariantMaterial> read_variants(const tinygltf::Primitive& source) {
-    std::vector<VariantMaterial> result;
-    const tinygltf::Value* extension = find_extension(source.extensions, "KHR_materials_variants");
-    if (extension == nullptr) return result;
-    for_each_element(*extension, "mappings", [&](const tinygltf::Value& mapping) {
-        const Handle<MaterialDesc> material{integer_or(mapping, "material", 0)};
-        for_each_element(mapping, "variants", [&](const tinygltf::Value& variant) {
-            result.push_back({static_cast<std::uint32_t>(variant.GetNumberAsInt()), material});
-        });
-    });
-    return result;
-}
-
 /// Counts primitives that their material's textures would sample without coordinates.
 void check_texcoords(const PrimitiveDesc& p, const MaterialDesc& material, RepairLog& repairs) {
     bool missing = false;
@@ -371,11 +358,7 @@ Handle<MaterialDesc> default_material(SceneDesc& scene, Handle<MaterialDesc>& ca
 std::vector<MeshDeformation> read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene,
                                          ProblemList& problems) {
     std::vector<MeshDeformation> deformations(document.model.meshes.size());
-    if (const tinygltf::Value* variants = find_extension(document.model.extensions, "KHR_materials_variants")) {
-        for_each_element(*variants, "variants", [&](const tinygltf::Value& variant) {
-            scene.variants.push_back(variant.Get("name").Get<std::string>());
-        });
-    }
+    scene.variants = read_variant_names(document.model);
     RepairLog repairs;
     PrimitiveReader reader(document, accessors, repairs, problems);
     Handle<MaterialDesc> default_handle;
@@ -394,7 +377,7 @@ std::vector<MeshDeformation> read_meshes(const GltfDocument& document, AccessorR
             const int material = source.primitives[i].material;
             primitive->material =
                 material >= 0 ? Handle<MaterialDesc>{material} : default_material(scene, default_handle, document.file);
-            primitive->variants = read_variants(source.primitives[i]);
+            primitive->variants = read_variant_materials(source.primitives[i]);
             check_texcoords(*primitive, scene.materials[static_cast<std::size_t>(primitive->material.index)], repairs);
             mesh.primitives.push_back(std::move(*primitive));
         }

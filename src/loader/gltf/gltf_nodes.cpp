@@ -5,6 +5,7 @@
 #include "loader/gltf/gltf_lights.h"
 #include "loader/gltf/gltf_mesh_deformer.h"
 #include "loader/gltf/gltf_posed_nodes.h"
+#include "loader/gltf/gltf_scene_graph.h"
 #include "loader/gltf/gltf_transform.h"
 #include "loader/gltf/gltf_value.h"
 #include "loader/gltf/vertex_data.h"
@@ -33,143 +34,11 @@ constexpr std::uint64_t kBytesOfPlace = 1024;
 /// About what each primitive of a placed mesh takes besides: its slot for a light and its box.
 constexpr std::uint64_t kBytesOfPlacedPrimitive = 64;
 
-constexpr int kNoParent = -1;
-
 /// Returns the planes that the file's camera has; without a far one, it sees everything.
 ClipDesc clip_of(const auto& camera) {
     ClipDesc clip{.start = static_cast<float>(camera.znear)};
     if (camera.zfar > 0.0) clip.end = static_cast<float>(camera.zfar);
     return clip;
-}
-
-/// The parent of every node. Errors for nodes with two.
-std::vector<int> find_parents(const GltfDocument& document, ProblemList& problems) {
-    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
-    std::vector<int> parents(nodes.size(), kNoParent);
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        for (std::size_t c = 0; c < nodes[n].children.size(); ++c) {
-            const auto child = static_cast<std::size_t>(nodes[n].children[c]);
-            if (parents[child] == kNoParent) {
-                parents[child] = static_cast<int>(n);
-                continue;
-            }
-            problems.error(document.at(fmt::format("/nodes/{}/children/{}", n, c)),
-                           fmt::format("node {} already is a child of node {}", child, parents[child]));
-        }
-    }
-    return parents;
-}
-
-/// One error for each cycle. Every node has one parent at most, so walking up either ends or meets its own track.
-void check_cycles(const GltfDocument& document, const std::vector<int>& parents, ProblemList& problems) {
-    constexpr std::size_t kUnseen = 0;
-    std::vector<std::size_t> walk_of(parents.size(), kUnseen);
-    for (std::size_t start = 0; start < parents.size(); ++start) {
-        int node = static_cast<int>(start);
-        while (node != kNoParent && walk_of[static_cast<std::size_t>(node)] == kUnseen) {
-            walk_of[static_cast<std::size_t>(node)] = start + 1;
-            node = parents[static_cast<std::size_t>(node)];
-        }
-        if (node != kNoParent && walk_of[static_cast<std::size_t>(node)] == start + 1) {
-            problems.error(document.at(fmt::format("/nodes/{}", node)), "the node is its own ancestor");
-        }
-    }
-}
-
-/// True if an ancestor of `node` is in `listed`. There must be no cycles.
-bool is_below(int node, const std::vector<bool>& listed, const std::vector<int>& parents) {
-    for (int parent = parents[static_cast<std::size_t>(node)]; parent != kNoParent;
-         parent = parents[static_cast<std::size_t>(parent)])
-        if (listed[static_cast<std::size_t>(parent)]) return true;
-    return false;
-}
-
-/// The nodes that scene `index` lists, but for those that others of them bring along. There must be no cycles.
-std::vector<int> roots_of_scene(const GltfDocument& document, std::size_t index, const std::vector<int>& parents,
-                                ProblemList& problems) {
-    const std::vector<int>& nodes = document.model.scenes[index].nodes;
-    std::vector<bool> listed(parents.size(), false);
-    std::vector<int> distinct;
-    std::size_t repeated = 0;
-    for (const int node : nodes) {
-        if (listed[static_cast<std::size_t>(node)]) {
-            ++repeated;
-            continue;
-        }
-        listed[static_cast<std::size_t>(node)] = true;
-        distinct.push_back(node);
-    }
-    const auto warn = [&](std::size_t count, std::string_view what) {
-        if (count > 0)
-            problems.warning(document.at(fmt::format("/scenes/{}/nodes", index)),
-                             fmt::format("{} of the scene's nodes {}", count, what));
-    };
-    warn(repeated, "are listed again, and are shown once");
-    warn(std::erase_if(distinct, [&](int node) { return is_below(node, listed, parents); }),
-         "are children of others of them, and are shown as such");
-    const auto has_parent = [&](int node) { return parents[static_cast<std::size_t>(node)] != kNoParent; };
-    warn(static_cast<std::size_t>(std::ranges::count_if(distinct, has_parent)),
-         "are children of nodes that it does not show, and are shown without their transforms");
-    return distinct;
-}
-
-/// Hands out names of which none is there twice.
-class FreeNames {
-  public:
-    /// Returns `wanted`, or `fallback` for an empty one; where that is taken, with a number behind it.
-    std::string take(const std::string& wanted, const std::string& fallback) {
-        const std::string base = wanted.empty() ? fallback : wanted;
-        std::string name = base;
-        for (int& n = last_number_[base]; !taken_.insert(name).second;) name = fmt::format("{}-{}", base, ++n + 1);
-        return name;
-    }
-
-  private:
-    std::set<std::string> taken_;
-    std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
-};
-
-/// Chooses the scene that `settings` name, or the file's own, and tells `scene` which there are. An error if there is
-/// none of that name, and a note if one of several was taken without being asked for.
-void choose_scene(const GltfDocument& document, const RenderSettings& settings, SceneDesc& scene,
-                  ProblemList& problems) {
-    const tinygltf::Model& model = document.model;
-    FreeNames free_names;
-    for (const tinygltf::Scene& each : model.scenes) scene.scenes.push_back(free_names.take(each.name, "scene"));
-    scene.shown_scene = model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
-    const std::vector<std::string_view> names(scene.scenes.begin(), scene.scenes.end());
-    const std::string& wanted = settings.scene_name;
-    if (!wanted.empty()) {
-        const auto found = std::ranges::find(names, wanted);
-        if (found == names.end())
-            problems.error(settings.at("/scene_name"),
-                           fmt::format("the file has no scene '{}'; {}", shown(wanted), name_hint(wanted, names)));
-        else
-            scene.shown_scene = static_cast<std::size_t>(found - names.begin());
-    } else if (names.size() > 1) {
-        problems.note(
-            document.at("/scenes"),
-            fmt::format("the file has {} scenes, of which '{}' is shown; --scene NAME shows another, such as "
-                        "'{}'",
-                        names.size(), shown(names[scene.shown_scene]), shown(names[scene.shown_scene == 0 ? 1 : 0])));
-    }
-}
-
-/// The nodes to start from, of the scene with this index. There must be no cycles.
-std::vector<int> find_roots(const GltfDocument& document, std::size_t index, const std::vector<int>& parents,
-                            ProblemList& problems) {
-    const tinygltf::Model& model = document.model;
-    if (model.scenes.empty()) {
-        std::vector<int> roots;
-        for (std::size_t n = 0; n < parents.size(); ++n) {
-            if (parents[n] == kNoParent) roots.push_back(static_cast<int>(n));
-        }
-        if (!roots.empty()) {
-            problems.warning(document.at(""), "the file has no scene: all nodes without a parent are shown");
-        }
-        return roots;
-    }
-    return roots_of_scene(document, index, parents, problems);
 }
 
 /// Turns one node after the other into what it places.

@@ -20,32 +20,10 @@ void find_light(LightFinder& finder, const SubpathState& state, const Ray& ray, 
     if (!hit.valid()) return finder.on_escape(state, ray.direction);
     if (path.point.material->emits && !(is_first && finder.finds_emission(hit)))
         finder.on_emitter(state, path.point, ray.direction, path.arrived);
-    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden)) finder.on_unlit(state, path.point);
+    if (path.point.material->unlit && !(path.crossing && path.crossing->is_covered)) finder.on_unlit(state, path.point);
 }
 
 }  // namespace
-
-Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
-    return world().spectral_response().sample(
-        sample_2d(job.sequence, shared_key(job, samples[slot].key), kSubpathWavelengthDimension).x);
-}
-
-bool SubpathJob::needs(SubpathEnd end, SubpathDimension which) const {
-    switch (which) {
-        case SubpathDimension::Medium:
-            return world().traits().has_scattering_bodies;
-        case SubpathDimension::LightChoice:
-            return end == SubpathEnd::AtEye ? world().traits().chooses_lights : world().traits().has_lens;
-        default:
-            return true;
-    }
-}
-
-std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
-    if (!world().traits().has_transparency) return 0;
-    // Another one than that of the subpath's own ray.
-    return ~sample_bits(samples[slot].key, subpath_dimension(end, index, SubpathDimension::Alpha));
-}
 
 void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                         RenderCounters& counters) {
@@ -103,58 +81,6 @@ std::size_t SubpathWave::bytes() const {
          {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
         bytes += numbers->bytes();
     return bytes;
-}
-
-void SubpathWave::begin_at_eye(const SubpathJob& job) {
-    PathWords& words = vertices_.words();
-    if (job.world().traits().has_bodies) interiors_.assign(states_.size(), job.world().media().camera_interior());
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-        states_[i].slot = static_cast<std::uint32_t>(i);
-        states_[i].from = rays_[i].origin;
-        if (words.are_followed()) states_[i].words = words.begin_at_eye();
-    }
-}
-
-void SubpathWave::begin_at_lights(const SubpathJob& job) {
-    const World& world = job.world();
-    PathWords& words = vertices_.words();
-    emissions_.resize(job.samples.size());
-    keys_.clear();
-    for (const CameraSample& sample : job.samples) keys_.push_back(sample.key);
-    const auto draw = [&](std::uint32_t which, NumberPairs& numbers) {
-        numbers.draw(job.job.sequence, keys_, kFirstLightDimension + which);
-    };
-    if (world.traits().chooses_emitters)
-        draw(kEmitterChoice, light_choice_);
-    else
-        light_choice_.draw_none(keys_.size());
-    draw(kTriangle, triangle_);
-    draw(kPosition, position_);
-    draw(kDirection, direction_);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < job.samples.size(); ++i) {
-        const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
-        const Emission& emission = emissions_[i];
-        make_in_place(emissions_[i],
-                      [&] { return world.emitters().sample(light_choice_[i], u, rays_[i].time, job.mis.aims); });
-        if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
-        const EmissionSample& sample = emission.sample;
-        SubpathState state;
-        state.throughput = emission.weight;
-        state.roulette_scale = 1.0f / max_component(emission.weight);
-        state.from = sample.position;
-        state.slot = static_cast<std::uint32_t>(i);
-        if (words.are_followed()) state.words = words.begin_at_light(words.light_source(world, emission.light));
-        state.departing = leave_light(job.mis, emission);
-        states_[kept] = state;
-        rays_[kept] = emission.ray;
-        rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
-        if (world.traits().has_bodies)
-            interiors_.push_back(world.emitters().interior(emission, emission.ray.direction));
-        ++kept;
-    }
-    states_.resize(kept);
-    rays_.resize(kept);
 }
 
 void SubpathWave::draw_numbers(const SubpathJob& job) {

@@ -11,6 +11,7 @@
 #include "wave/profile/wave_profile.h"
 #include "wave/subpath/arrival_columns.h"
 #include "wave/subpath/matte_lanes.h"
+#include "wave/subpath/subpath_job.h"
 #include "wave/subpath/subpath_state.h"
 #include "wave/subpath/subpath_vertices.h"
 
@@ -22,37 +23,6 @@
 #include <vector>
 
 namespace etendue {
-
-/// Returns what the weights of the paths of a job depend on.
-[[nodiscard]] inline MisContext mis_context(const World& world, const TileJob& job,
-                                            const IntegratorSettings& settings) {
-    return {.world = world,
-            .raised = Raised{settings.heuristic},
-            .samples_per_light_path = static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
-                                      static_cast<double>(job.window.area()),
-            .merging = job.merging,
-            .aims = settings.aimed_emission};
-}
-
-/// Says which samples one wave of subpaths is traced for, how long paths may be and how strategies are weighed.
-struct SubpathJob {
-    MisContext mis;
-    const TileJob& job;
-    const PathLengths& lengths;
-    std::span<const CameraSample> samples{};
-    std::span<const Ray> camera_rays{};  ///< rays of the samples, in their order
-
-    [[nodiscard]] const World& world() const { return mis.world; }
-    /// Returns the wavelength of the path of the sample in `slot`, if it needs one; both subpaths have the same.
-    [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
-    [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {
-        return is_dispersed ? wavelength(slot).weight : Rgb(1.0f);
-    }
-    /// False if such numbers mean nothing in this World.
-    [[nodiscard]] bool needs(SubpathEnd end, SubpathDimension which) const;
-    /// Returns the alpha key of rays that connect the vertex of this index; 0 if nothing is transparent.
-    [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
-};
 
 /// Hears what subpaths from the eye meet.
 class LightFinder {

@@ -20,7 +20,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
     ShadedSubpath& path = block_[k];
     SubpathState& state = states_[i];
     const SurfacePoint& point = path.point;
-    if (path.crossing && path.crossing->is_hidden) {
+    if (path.crossing && path.crossing->is_covered) {
         pass_hidden(i, path);
         goes_on_[k] = true;
         return false;

@@ -1,5 +1,5 @@
 // What parts say of themselves: anybody can write one.
-#include "picture/image_description.h"
+#include "picture/description_text.h"
 
 #include "core/error.h"
 

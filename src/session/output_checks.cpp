@@ -1,0 +1,99 @@
+#include "session/output_checks.h"
+
+#include "picture/output_paths.h"
+#include "picture/render_setup.h"
+#include "session/image_files.h"
+#include "session/input_files.h"
+#include "session/up_to_date.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+OutputPaths paths_of(const PlannedOutput& planned) {
+    return OutputPaths::beside(planned.output, planned.request.overrides.png);
+}
+
+void require_all_writable(const OutputPaths& paths) {
+    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
+        if (!path.empty()) require_writable(path);
+}
+
+/// Throws SceneError if the image has the name of another one's layer: of NAME, if it is NAME.LAYER.
+void require_no_layer_of_another(const std::filesystem::path& output) {
+    const std::string name = output.filename().string();
+    for (std::size_t dot = name.rfind('.', name.size() - output.extension().string().size() - 1);
+         dot != std::string::npos && dot > 0; dot = name.rfind('.', dot - 1)) {
+        const OutputPaths other = OutputPaths::beside(output.parent_path() / (name.substr(0, dot) + ".exr"));
+        const std::vector<std::string> of_other = listed_layer_files(other);
+        if (std::ranges::find(of_other, name) == of_other.end()) continue;
+        throw SceneError({}, fmt::format("{} is a layer of the image {}, as {} tells, and would be lost; give the "
+                                         "output another name, or remove the layer",
+                                         output.string(), other.exr.string(), other.json.string()));
+    }
+}
+
+/// Throws SceneError if the file of `layer` is an image of its own.
+void require_free(const std::filesystem::path& output, const std::string& layer, const SceneDesc& scene) {
+    const std::filesystem::path path = layer_path(output, layer);
+    require_writable(path);
+    const std::filesystem::path other = OutputPaths::beside(path).json;
+    if (std::filesystem::exists(other))
+        throw SceneError(scene.settings.at("/aov_layout"),
+                         fmt::format("the layer '{}' would be written to {}, which is an image of its own, as {} "
+                                     "tells; give the layer another name, or use another layout",
+                                     layer, path.string(), other.string()));
+}
+
+/// Throws if the image of strategies cannot be written, or would show nothing.
+void check_strategies(const PlannedOutput& planned) {
+    const std::filesystem::path& strategies = planned.request.strategies.output;
+    const OutputPaths pyramid = OutputPaths::beside(strategies);
+    require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()), std::array{pyramid.exr, pyramid.png},
+                        planned.scene.inputs);
+    require_all_writable(pyramid);
+    require_strategies(planned.scene.settings, {"--strategies-image", {}});
+    check_strategies_request(planned.request.strategies, paths_of(planned), planned.scene.settings, planned.options,
+                             planned.request.overrides.depth);
+}
+
+}  // namespace
+
+void check_outputs(const PlannedOutput& planned) {
+    const std::filesystem::path& output = planned.output;
+    const std::vector<std::string> layers =
+        layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
+    require_inputs_kept(fmt::format("--output {}", output.string()), files_of_image(output, layers),
+                        planned.scene.inputs);
+    if (is_partial(output)) {
+        if (intersection(planned.options.window, planned.options.splat_window) != planned.options.window)
+            throw SceneError(planned.scene.settings.at("/crop"),
+                             "a part lies within the image and its overscan: give it --overscan as well");
+        require_depths_of_part(output, planned.options, planned.aovs, planned.integrator);
+        require_writable(output);
+        return;
+    }
+    require_all_writable(paths_of(planned));
+    require_no_layer_of_another(output);
+    for (const std::string& layer : layers) require_free(output, layer, planned.scene);
+    if (!planned.request.strategies.output.empty()) check_strategies(planned);
+}
+
+void require_depths_of_part(const std::filesystem::path& output, const RenderOptions& options, const AovPlan& aovs,
+                            const Integrator& integrator) {
+    const bool is_deep = aovs.set && aovs.set->layout.is_deep;
+    const bool is_crop = options.window != options.splat_window;
+    if (is_partial(output) && is_crop && is_deep && integrator.makes_splats())
+        throw SceneError({"--deep", {}},
+                         "a part that is a crop has no depths of the light that falls into others: render "
+                         "parts that are ranges of samples (--samples), or with 'path'");
+}
+
+}  // namespace etendue
