@@ -3,6 +3,7 @@
 #include "core/pointed_text.h"
 #include "core/shown_text.h"
 #include "integrator/integrator.h"
+#include "lightpath/label_classes.h"
 #include "lightpath/usual_expressions.h"
 #include "output/cryptomatte.h"
 #include "picture/matte_names.h"
@@ -120,12 +121,12 @@ std::string layer_name(const std::string& name, std::set<std::string>& taken) {
     return result;
 }
 
-/// In a name, both kinds of quotes would end it: then * stands for them.
-std::string light_expression(std::string name) {
-    if (name.find('\'') != std::string::npos && name.find('"') != std::string::npos)
-        std::ranges::replace(name, '\'', '*');
-    const char quote = name.find('\'') == std::string::npos ? '\'' : '"';
-    return fmt::format("C .* <L{}{}{}>", quote, name, quote);
+/// In a pattern, both kinds of quotes would end it: then * stands for them.
+std::string light_expression(std::string pattern) {
+    if (pattern.find('\'') != std::string::npos && pattern.find('"') != std::string::npos)
+        std::ranges::replace(pattern, '\'', '*');
+    const char quote = pattern.find('\'') == std::string::npos ? '\'' : '"';
+    return fmt::format("C .* <L{}{}{}>", quote, pattern, quote);
 }
 
 /// Channels of the file that the writer makes.
@@ -179,7 +180,8 @@ class Planner {
         } else if (is_group && aov.source == kLights.name) {
             std::set<std::string> taken;
             for (const std::string& name : light_names(scene_))
-                add_expression(aov, "light_" + layer_name(name, taken), light_expression(name));
+                add_expression(aov, "light_" + layer_name(name, taken),
+                               fmt::format("C .* <L'{}'>", label_pattern(name)));
         } else if (is_group && aov.source == kDenoising.name) {
             plan_.has_halves = true;
             for (const FirstHitValue value : {FirstHitValue::Albedo, FirstHitValue::Normal, FirstHitValue::Depth})
