@@ -136,7 +136,9 @@ void note_camera(const SceneDesc& scene, ProblemList& problems) {
     std::string others;
     for (std::size_t i = 1; i < std::min(scene.cameras.size(), kMostNames + 1); ++i) {
         const CameraDesc& camera = scene.cameras[i];
-        others += fmt::format("{}'{}'", i == 1 ? "" : ", ", shown(camera.node.empty() ? camera.name : camera.node));
+        // Of several nodes with one name, it names the first.
+        const bool has_own_node = !camera.node.empty() && find_camera(scene, camera.node) == &camera;
+        others += fmt::format("{}'{}'", i == 1 ? "" : ", ", shown(has_own_node ? camera.node : camera.name));
     }
     if (scene.cameras.size() > kMostNames + 1) others += " and more";
     problems.note({scene.file.string(), "/cameras"},
