@@ -514,7 +514,8 @@ TEST_F(Continuation, ASecondSignalOfTheOtherKindEndsItAtOnce) {
 TEST_F(Continuation, UsageErrorsEndWithTwo) {
     for (const Arguments& more :
          {Arguments{"--samples", "0:8"}, Arguments{"--samples", "8:8"}, Arguments{"--samples", "x"},
-          Arguments{"--checkpoint-every", "-1"}, Arguments{"--error", "-1"}, Arguments{"--progress-fd", "1"}})
+          Arguments{"--checkpoint-every", "-1"}, Arguments{"--error", "-1"}, Arguments{"--progress-fd", "1"},
+          Arguments{"--progress-fd", "999"}})
         EXPECT_EQ(run(render(8, "a.exr", more)).exit_code, 2) << more.back();
     EXPECT_EQ(run(render(8, "a.partial", {"--time", "1"})).exit_code, 2);
     EXPECT_EQ(run({"merge", "-o", "a.exr"}).exit_code, 2);
