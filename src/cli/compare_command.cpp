@@ -316,7 +316,9 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const ThreadPool threads(arguments.threads);
     const ColorConfig colors = ColorConfig::from_environment();
     const std::vector<VariantRequest> requests = variant_requests(arguments);
+    std::optional<NothingToKeep> while_reading(std::in_place);
     const std::vector<Variant> variants = make_variants(arguments.scene, requests, colors, threads, arguments.quiet);
+    while_reading.reset();
     const PixelRect& window = variants.front().sampling.window;
     require_regions_within(arguments.regions, window);
     require_effective(arguments, variants);

@@ -11,6 +11,7 @@
 #include "picture/output_paths.h"
 #include "session/image_files.h"
 #include "session/input_files.h"
+#include "session/interrupt.h"
 #include "session/library_versions.h"
 #include "session/merge_parts.h"
 #include "session/phase_timer.h"
@@ -81,11 +82,14 @@ ExitCode run_merge(const MergeArguments& arguments) {
     };
     require_parts_kept(is_partial(output) ? std::vector{output} : std::vector{output, paths.png, paths.json});
     const PhaseTimer timer;
-    const MergedParts merged = merge_parts(parts, [&](const std::string& note) {
+    const auto say = [&](const std::string& note) {
         // A part says where its samples begin and how many there are, and no more.
         if (is_partial(output)) throw SceneError({output.string(), {}}, note + "; such parts can become an image only");
         if (!arguments.quiet) log_warning("note: {}", note);
-    });
+    };
+    std::optional<NothingToKeep> while_reading(std::in_place);
+    const MergedParts merged = merge_parts(parts, say);
+    while_reading.reset();
     const RenderState& state = merged.sum.state;
     ImageDescription image = description_of(merged.sum, arguments.parts.front());
     image.statistics.load = timer.elapsed();

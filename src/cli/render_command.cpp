@@ -84,6 +84,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     std::optional<TevViewer> tev;
     if (arguments.tev) tev.emplace(*arguments.tev);
     std::vector<ImageResult> results;
+    std::optional<SomethingToKeep> kept_from_signals;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
         ImageJobOptions options = arguments.job;
         options.force = arguments.force || (!is_sequence && !arguments.job.resume);
@@ -96,7 +97,9 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
         else if (!quiet)
             report(result.job.output, result.statistics);
         // Statistics of many frames are kept only for those who want them.
-        if (arguments.json) results.push_back(std::move(result));
+        if (!arguments.json) continue;
+        results.push_back(std::move(result));
+        if (!kept_from_signals) kept_from_signals.emplace();
     }
     // An interrupt may have come before the first.
     if (arguments.json && (is_sequence || !results.empty()))
@@ -105,6 +108,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
 }
 
 ExitCode run_render(const RenderArguments& arguments) {
+    const NothingToKeep before_images;
     const std::string name = scene_name(arguments.scene);
     const std::filesystem::path output = arguments.output.empty() ? default_output(arguments, name) : arguments.output;
     std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.job.overrides);
