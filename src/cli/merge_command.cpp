@@ -119,6 +119,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
         const std::vector<std::string> earlier =
             write_image_files(paths, image, ColorConfig::from_environment(), depth);
         if (!arguments.quiet) {
+            note_brightest(paths, image.frame, depth);
             note_exposure(paths, image.statistics);
             note_earlier_files(earlier);
         }

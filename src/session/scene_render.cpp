@@ -489,6 +489,7 @@ class SceneRender {
                                        colors_, depth, threads_, title(), request_.quiet);
         });
         if (request_.quiet) return;
+        note_brightest(paths_, description_.frame, depth);
         note_exposure(paths_, description_.statistics);
         note_earlier_files(earlier);
     }
