@@ -117,7 +117,7 @@ Inspection inspect(const std::string& path, const SettingsOverrides& overrides) 
     if (result.problems.has_errors()) return result;
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
     try {
-        complete_scene(scene, result.problems);
+        complete_scene(scene, loaded.swept, result.problems);
         result.outline = outline_of(scene);
         RenderSettings settings = scene.settings;
         (void)replace_auto(settings);
