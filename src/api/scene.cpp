@@ -33,7 +33,7 @@ Scene::Scene(const std::filesystem::path& path, std::string_view settings, std::
     state_->given.render_json = render_json_of(path);
     translating(state_->given, [&] {
         LoadedScene loaded = load_scene(path, {.frame = frame, .settings = std::string(settings)});
-        complete_scene(loaded.scene, loaded.problems);
+        complete_scene(loaded.scene, loaded.swept, loaded.problems);
         state_->scene = std::move(loaded.scene);
         state_->messages = to_messages(loaded.problems, state_->given);
     });

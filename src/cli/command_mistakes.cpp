@@ -107,6 +107,8 @@ std::string mistake_in_words(const CLI::App& app, const CLI::ParseError& error) 
         if (option != nullptr && message.find(" missing") != std::string::npos)
             return fmt::format("{} needs a value behind it, {}: {}", name, option->terms,
                                first_clause(option->description));
+        const std::string times = after(message, "At Most 1 required but received ");
+        if (option != nullptr && !times.empty()) return fmt::format("{} is given {} times; give it once", name, times);
     }
     return invalid(message);
 }

@@ -127,6 +127,7 @@ struct ComparisonPlan {
 /// Reads the scene and the reference. Throws SceneError for what cannot be compared.
 ComparisonPlan plan_comparison(const CompareArguments& arguments, const ColorConfig& colors,
                                const ThreadPool& threads) {
+    const NothingToKeep while_reading;
     const std::vector<VariantRequest> requests = variant_requests(arguments);
     ComparisonPlan plan;
     plan.variants = make_variants(arguments.scene, requests, colors, threads, arguments.quiet);

@@ -11,6 +11,7 @@
 #include "picture/scene_completion.h"
 #include "processor/ray_code.h"
 #include "session/image_outline.h"
+#include "session/interrupt.h"
 #include "session/scene_render.h"
 
 #include <algorithm>
@@ -116,7 +117,7 @@ Inspection inspect(const std::string& path, const SettingsOverrides& overrides) 
     if (result.problems.has_errors()) return result;
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
     try {
-        complete_scene(scene, result.problems);
+        complete_scene(scene, loaded.swept, result.problems);
         result.outline = outline_of(scene);
         RenderSettings settings = scene.settings;
         (void)replace_auto(settings);
@@ -235,6 +236,7 @@ std::vector<std::string> find_scenes(const std::vector<std::string>& paths) {
 }
 
 ExitCode run_inspect(const InspectArguments& arguments) {
+    const NothingToKeep while_reading;
     const std::vector<std::string> scenes = find_scenes(arguments.paths);
     nlohmann::json all = nlohmann::json::array();
     std::size_t wrong = 0;

@@ -35,7 +35,9 @@ ExitCode run_live(const LiveArguments& arguments) {
     if (arguments.tev) tev.emplace(*arguments.tev);
     Explorer::TakeImage take;
     if (tev) take = [&tev](const std::string& name, const OutputFrame& frame) { tev->show(name, frame); };
+    std::optional<NothingToKeep> while_reading(std::in_place);
     Explorer explorer(prepare_scene(arguments.scene, arguments.overrides), arguments.given, threads, std::move(take));
+    while_reading.reset();
     ExplorerPage page(arguments.port, explorer);
     explorer.run([&] { return page.is_ended() || interrupt_requested(); });
     return page.is_ended() ? ExitCode::Success : interrupt_exit_code();

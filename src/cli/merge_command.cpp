@@ -12,6 +12,7 @@
 #include "picture/output_paths.h"
 #include "session/image_files.h"
 #include "session/input_files.h"
+#include "session/interrupt.h"
 #include "session/library_versions.h"
 #include "session/merge_parts.h"
 #include "session/phase_timer.h"
@@ -84,6 +85,7 @@ void require_parts_kept(const MergeArguments& arguments, std::span<const std::fi
 
 MergedParts merge_given_parts(const MergeArguments& arguments) {
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
+    const NothingToKeep while_reading;
     return merge_parts(parts, [&](const std::string& note) {
         // A part says where its samples begin and how many there are, and no more.
         if (is_partial(arguments.output))
@@ -110,6 +112,7 @@ void write_merged_image(const MergeArguments& arguments, const OutputPaths& path
     image.statistics.libraries = library_versions();
     const std::vector<std::string> earlier = write_image_files(paths, image, ColorConfig::from_environment(), depth);
     if (arguments.quiet) return;
+    note_brightest(paths, image.frame, depth);
     note_exposure(paths, image.statistics);
     note_earlier_files(earlier);
 }

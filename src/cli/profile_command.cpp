@@ -119,6 +119,7 @@ class LoadedScene {
   public:
     LoadedScene(const ProfileArguments& arguments, const ColorConfig& colors, const ThreadPool& threads,
                 ProfileReport& report) {
+        const NothingToKeep while_reading;
         report.load.push_back({"start of the process", seconds_since_process_start()});
         PreparedScene prepared = prepare_scene(arguments.scene, arguments.overrides);
         report.load.push_back({"files", prepared.load.wall});

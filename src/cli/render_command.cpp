@@ -13,6 +13,7 @@
 #include "session/image_job.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
+#include "session/progress_pipe.h"
 #include "session/scene_render.h"
 #include "session/usage_error.h"
 
@@ -83,6 +84,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     std::optional<TevViewer> tev;
     if (arguments.tev) tev.emplace(*arguments.tev);
     std::vector<ImageResult> results;
+    std::optional<SomethingToKeep> kept_from_signals;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
         ImageJobOptions options = arguments.job;
         options.force = arguments.force || (!is_sequence && !arguments.job.resume);
@@ -95,7 +97,9 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
         else if (!quiet)
             report(result.job.output, result.statistics);
         // Statistics of many frames are kept only for those who want them.
-        if (arguments.json) results.push_back(std::move(result));
+        if (!arguments.json) continue;
+        results.push_back(std::move(result));
+        if (!kept_from_signals) kept_from_signals.emplace();
     }
     // An interrupt may have come before the first.
     if (arguments.json && (is_sequence || !results.empty()))
@@ -104,6 +108,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
 }
 
 ExitCode run_render(const RenderArguments& arguments) {
+    const NothingToKeep before_images;
     const std::string name = scene_name(arguments.scene);
     const std::filesystem::path output = arguments.output.empty() ? default_output(arguments, name) : arguments.output;
     std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.job.overrides);
@@ -258,10 +263,13 @@ void add_render_command(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand(
         "render", "Render one scene to NAME.exr, NAME.png and NAME.json, or its frames to NAME.0001.exr ...");
     add_scene_argument(*command, arguments->scene);
-    command->add_option("-o,--output", arguments->output,
-                        "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory). "
-                        "Frames of a sequence have their number in place of #### or before the extension. A .partial "
-                        "holds a part of an image (a range of --samples, or a --crop) for 'etendue merge'");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory). "
+                     "Frames of a sequence have their number in place of #### or before the extension. A .partial "
+                     "holds a part of an image (a range of --samples, or a --crop) for 'etendue merge'")
+        // As a script gives it whose variable is not set: the default would be somewhere else.
+        ->check([](const std::string& path) { return path.empty() ? std::string("'' is not a file name") : ""; });
     add_settings_options(*command, arguments->job.overrides);
     add_png_option(*command, arguments->job.overrides);
     command
@@ -291,7 +299,10 @@ void add_render_command(CLI::App& app, Action& action) {
         arguments->job.command = command_line("etendue render", given_options(all));
         action = [arguments] {
             check_outputs(*arguments);
-            if (arguments->job.progress_descriptor >= 0) take_all_interrupts_for_one();
+            if (arguments->job.progress_descriptor >= 0) {
+                require_progress_reader(arguments->job.progress_descriptor);
+                take_all_interrupts_for_one();
+            }
             return run_render(*arguments);
         };
     });

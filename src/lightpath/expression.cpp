@@ -1,6 +1,7 @@
 #include "lightpath/expression.h"
 
 #include "core/pointed_text.h"
+#include "lightpath/label_classes.h"
 
 #include <array>
 #include <charconv>
@@ -190,8 +191,9 @@ class Parser {
             fail("not <TYPE SCATTERING 'NAME'> such as <RD'gold'>, <T.> or <L'key'>", begin);
         if (pattern.kinds == 0) fail("no event is all of this at once", begin);
         if (const char quote = peek(); quote != '>') {
-            const std::size_t end = text_.find(quote, at_ + 1);
-            if (end == std::string_view::npos) fail("a name without its closing quote", at_);
+            std::size_t end = at_ + 1;
+            while (end < text_.size() && text_[end] != quote) end += is_label_escape(text_, end) ? 2 : 1;
+            if (end >= text_.size()) fail("a name without its closing quote", at_);
             pattern.label = std::string(text_.substr(at_ + 1, end - at_ - 1));
             if (pattern.label.empty()) fail("an empty name", at_);
             at_ = end + 1;

@@ -6,6 +6,26 @@
 
 namespace etendue {
 
+namespace {
+
+constexpr std::string_view kEscaped = "*\\'\"";
+
+}  // namespace
+
+bool is_label_escape(std::string_view pattern, std::size_t place) {
+    return pattern[place] == '\\' && place + 1 < pattern.size() &&
+           kEscaped.find(pattern[place + 1]) != std::string_view::npos;
+}
+
+std::string label_pattern(std::string_view name) {
+    std::string pattern;
+    for (const char c : name) {
+        if (kEscaped.find(c) != std::string_view::npos) pattern += '\\';
+        pattern += c;
+    }
+    return pattern;
+}
+
 bool matches_label(std::string_view pattern, std::string_view name) {
     std::size_t p = 0;
     std::size_t n = 0;
@@ -15,8 +35,8 @@ bool matches_label(std::string_view pattern, std::string_view name) {
         if (p < pattern.size() && pattern[p] == '*') {
             star = p++;
             resume = n;
-        } else if (p < pattern.size() && pattern[p] == name[n]) {
-            ++p;
+        } else if (p < pattern.size() && pattern[is_label_escape(pattern, p) ? p + 1 : p] == name[n]) {
+            p += is_label_escape(pattern, p) ? 2 : 1;
             ++n;
         } else if (star != std::string_view::npos) {
             p = star + 1;

@@ -10,8 +10,15 @@
 
 namespace etendue {
 
-/// True if `name` is `pattern`, in which * stands for any characters. In time proportional to their lengths' product.
+/// True if `name` is `pattern`, in which * stands for any characters, and \ makes the *, \ or quote behind it that
+/// character. In time proportional to their lengths' product.
 [[nodiscard]] bool matches_label(std::string_view pattern, std::string_view name);
+
+/// True if the character of `pattern` at `place` makes the one behind it stand for itself.
+[[nodiscard]] bool is_label_escape(std::string_view pattern, std::size_t place);
+
+/// Returns the pattern that `name` alone matches, in quotes of either kind.
+[[nodiscard]] std::string label_pattern(std::string_view name);
 
 /// Which patterns each name matches. Names without any are in class 0.
 class LabelClasses {

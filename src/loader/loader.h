@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "scene/scene_desc.h"
+#include "scene/swept_space.h"
 
 #include <filesystem>
 #include <functional>
@@ -43,9 +44,10 @@ class SceneLoader {
     [[nodiscard]] virtual bool can_load(const std::filesystem::path& file) const = 0;
 
     /// Fills `scene`, which has its settings, from `file` at the moment that these show. Every problem goes to
-    /// `problems`; when nothing useful can follow, throws SceneError with those that are not in `problems` yet.
-    virtual void load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
-                      ProblemList& problems) const = 0;
+    /// `problems`; when nothing useful can follow, throws SceneError with those that are not in `problems` yet. Returns
+    /// the space of the whole animation for a frame of a sequence that lacks a camera or light, else an empty one.
+    virtual SweptSpace load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+                            ProblemList& problems) const = 0;
 };
 
 /// All loaders, in the order in which they are asked.
@@ -54,6 +56,7 @@ class SceneLoader {
 struct LoadedScene {
     SceneDesc scene;
     ProblemList problems;  ///< notes and warnings; errors have been thrown
+    SweptSpace swept{};    ///< as SceneLoader::load returns it
 };
 
 /// Loads the scene directory or file `path`: its scene file, then render.json beside it if there is one, then

@@ -136,7 +136,9 @@ void note_camera(const SceneDesc& scene, ProblemList& problems) {
     std::string others;
     for (std::size_t i = 1; i < std::min(scene.cameras.size(), kMostNames + 1); ++i) {
         const CameraDesc& camera = scene.cameras[i];
-        others += fmt::format("{}'{}'", i == 1 ? "" : ", ", shown(camera.node.empty() ? camera.name : camera.node));
+        // Of several nodes with one name, it names the first.
+        const bool has_own_node = !camera.node.empty() && find_camera(scene, camera.node) == &camera;
+        others += fmt::format("{}'{}'", i == 1 ? "" : ", ", shown(has_own_node ? camera.node : camera.name));
     }
     if (scene.cameras.size() > kMostNames + 1) others += " and more";
     problems.note({scene.file.string(), "/cameras"},
@@ -145,7 +147,8 @@ void note_camera(const SceneDesc& scene, ProblemList& problems) {
                               scene.cameras.size(), shown(scene.cameras.front().name), others));
 }
 
-void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scene, ProblemList& problems) {
+void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scene, SweptSpace& swept,
+               ProblemList& problems) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
     if (!fs::exists(path, code)) throw SceneError({path.string(), {}}, "there is no such file or directory");
@@ -168,7 +171,7 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
     if (settings) scene.settings = settings->settings;
     scene.settings.frame = options.frame;
     if (options.adjust) options.adjust(scene.settings);
-    loader->load(scene.file, options, scene, problems);
+    swept = loader->load(scene.file, options, scene, problems);
     if (!scene.extras.empty()) settings = with_extras(settings.value_or(RenderJson()), scene, problems);
     const std::map<std::string, LightOverride> lights = settings ? settings->lights : decltype(lights)();
     note_bright_lamps(lights, scene, problems);
@@ -190,7 +193,7 @@ void append(const ProblemList& from, ProblemList& to) {
 LoadedScene inspect_scene(const fs::path& path, const LoadOptions& options) {
     LoadedScene result;
     try {
-        load_into(path, options, result.scene, result.problems);
+        load_into(path, options, result.scene, result.swept, result.problems);
         leave_out_unreadable_images(result.scene);
         append(validate(result.scene), result.problems);
     } catch (const SceneError& error) {

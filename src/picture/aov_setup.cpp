@@ -3,6 +3,7 @@
 #include "core/pointed_text.h"
 #include "core/shown_text.h"
 #include "integrator/integrator.h"
+#include "lightpath/label_classes.h"
 #include "lightpath/usual_expressions.h"
 #include "output/cryptomatte.h"
 #include "picture/aov_sources.h"
@@ -80,7 +81,8 @@ class Planner {
         } else if (is_group && aov.source == aov_source::kLights.name) {
             std::set<std::string> taken;
             for (const std::string& name : light_names(scene_))
-                add_expression(aov, "light_" + layer_name(name, taken), light_expression(name));
+                add_expression(aov, "light_" + layer_name(name, taken),
+                               fmt::format("C .* <L'{}'>", label_pattern(name)));
         } else if (is_group && aov.source == aov_source::kDenoising.name) {
             plan_.has_halves = true;
             for (const FirstHitValue value : {FirstHitValue::Albedo, FirstHitValue::Normal, FirstHitValue::Depth})

@@ -69,11 +69,11 @@ std::string layer_name(const std::string& name, std::set<std::string>& taken) {
     return result;
 }
 
-std::string light_expression(std::string name) {
-    if (name.find('\'') != std::string::npos && name.find('"') != std::string::npos)
-        std::ranges::replace(name, '\'', '*');
-    const char quote = name.find('\'') == std::string::npos ? '\'' : '"';
-    return fmt::format("C .* <L{}{}{}>", quote, name, quote);
+std::string light_expression(std::string pattern) {
+    if (pattern.find('\'') != std::string::npos && pattern.find('"') != std::string::npos)
+        std::ranges::replace(pattern, '\'', '*');
+    const char quote = pattern.find('\'') == std::string::npos ? '\'' : '"';
+    return fmt::format("C .* <L{}{}{}>", quote, pattern, quote);
 }
 
 }  // namespace etendue

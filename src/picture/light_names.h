@@ -20,8 +20,8 @@ namespace etendue {
 /// unlike what is in `taken`, where it is put.
 [[nodiscard]] std::string layer_name(const std::string& name, std::set<std::string>& taken);
 
-/// Returns the expression of the light that comes from what is called `name`. In a name, both kinds of quotes would end
-/// it: then * stands for them.
-[[nodiscard]] std::string light_expression(std::string name);
+/// Returns the expression of the light that comes from what has a name that matches `pattern`. In a pattern, both kinds
+/// of quotes would end it: then * stands for them.
+[[nodiscard]] std::string light_expression(std::string pattern);
 
 }  // namespace etendue

@@ -42,8 +42,8 @@ std::optional<std::string> misses_shadows(const std::string& integrator, const s
         integrator, catcher);
 }
 
-void complete_scene(SceneDesc& scene, ProblemList& problems) {
-    add_missing_camera_and_light(scene, problems);
+void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems) {
+    add_missing_camera_and_light(scene, swept, problems);
     const ProblemList remaining = validate(scene);
     if (remaining.has_errors()) throw SceneError(remaining);
     apply_variant(scene);

@@ -3,16 +3,17 @@
 
 #include "core/error.h"
 #include "scene/scene_desc.h"
+#include "scene/swept_space.h"
 
 #include <optional>
 #include <string>
 
 namespace etendue {
 
-/// Adds a camera and a light where `scene` has none, applies the variant of its materials, and has `path` render shadow
-/// catchers unless an integrator is asked for; `problems` notes what was added and chosen. Throws SceneError for what
-/// `validate` finds, and for integrators that do not see shadow catchers.
-void complete_scene(SceneDesc& scene, ProblemList& problems);
+/// Adds a camera and a light where `scene`, whose animation fills `swept`, has none, applies the variant of its
+/// materials, and has `path` render shadow catchers unless an integrator is asked for; `problems` notes what was added
+/// and chosen. Throws SceneError for what `validate` finds, and for integrators that do not see shadow catchers.
+void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems);
 
 /// Returns the name of a material that catches shadows, or nothing if none does.
 [[nodiscard]] std::optional<std::string> shadow_catcher(const SceneDesc& scene);

@@ -2,6 +2,7 @@
 
 #include "scene/scene_desc.h"
 #include "scene/studio.h"
+#include "scene/swept_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,15 +108,22 @@ Bounds compute_bounds(const SceneDesc& scene) {
 }
 
 void add_missing_camera_and_light(SceneDesc& scene, ProblemList& problems) {
+    add_missing_camera_and_light(scene, {}, problems);
+}
+
+void add_missing_camera_and_light(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems) {
     const SourceLocation where{scene.file.string(), {}};
     const bool is_bare_model = scene.cameras.empty();
     if (is_bare_model) {
-        scene.cameras.push_back(framing_camera(compute_bounds(scene), scene.settings.film.aspect()));
-        problems.note(where, "the scene has no camera: one was placed to frame the bounding box");
+        const bool is_of_animation = !swept.bounds.empty();
+        scene.cameras.push_back(
+            framing_camera(is_of_animation ? swept.bounds : compute_bounds(scene), scene.settings.film.aspect()));
+        problems.note(where, fmt::format("the scene has no camera: one was placed to frame the bounding box{}",
+                                         is_of_animation ? " of its animation" : ""));
     }
     const std::optional<bool>& studio = scene.settings.studio;
     const bool is_dark = !has_light(scene);
-    if (studio.value_or(is_dark)) add_studio(scene, problems);
+    if (studio.value_or(is_dark)) add_studio(scene, swept, problems);
     if (is_dark && !studio)
         problems.note(where,
                       fmt::format("nothing in the scene emits light: it is lit by a studio{}; --environment gives "

@@ -15,7 +15,8 @@ std::vector<std::string_view> camera_names(const SceneDesc& scene) {
     std::vector<std::string_view> names;
     for (const CameraDesc& camera : scene.cameras) {
         names.push_back(camera.name);
-        if (!camera.node.empty() && camera.node != camera.name) names.push_back(camera.node);
+        if (!camera.node.empty() && camera.node != camera.name && find_camera(scene, camera.node) == &camera)
+            names.push_back(camera.node);
     }
     return names;
 }

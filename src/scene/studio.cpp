@@ -175,7 +175,12 @@ float studio_radiance(const Vec3f& direction) {
     return sky + boxes * smooth_step(kBoxesBegin, kBackdropEnds, direction.y);
 }
 
-void add_studio(SceneDesc& scene, ProblemList& problems) {
+void SweptSpace::extend(const SceneDesc& scene) {
+    bounds.extend(compute_bounds(scene));
+    lowest = std::min(lowest, lowest_height(scene));
+}
+
+void add_studio(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems) {
     EnvironmentDesc& environment = scene.environment;
     environment.image.clear();
     environment.cube.reset();
@@ -187,14 +192,14 @@ void add_studio(SceneDesc& scene, ProblemList& problems) {
         environment.scale = EnvironmentDesc().scale;
     }
     if (!scene.settings.ground) return;
-    const Bounds bounds = compute_bounds(scene);
-    const float radius = bounds.empty() ? 0.0f : 0.5f * length(bounds.size());
-    const float lowest = lowest_height(scene);
-    if (!(radius > 0.0f) || !std::isfinite(radius) || !std::isfinite(lowest)) return;
+    SweptSpace taken = swept;
+    if (taken.bounds.empty()) taken.extend(scene);
+    const float radius = taken.bounds.empty() ? 0.0f : 0.5f * length(taken.bounds.size());
+    if (!(radius > 0.0f) || !std::isfinite(radius) || !std::isfinite(taken.lowest)) return;
     // A little below, as what stands on it would otherwise lie in it.
     constexpr float kGap = 1e-3f;
-    Vec3f centre = bounds.center();
-    centre.y = lowest - kGap * radius;
+    Vec3f centre = taken.bounds.center();
+    centre.y = taken.lowest - kGap * radius;
     const std::optional<float> eye = eye_height(scene);
     if (eye && *eye <= centre.y) {
         problems.note({scene.file.string(), {}}, "the camera is below the scene: the studio has no ground");

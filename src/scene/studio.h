@@ -5,6 +5,7 @@
 
 #include "core/vec.h"
 #include "scene/scene_desc.h"
+#include "scene/swept_space.h"
 
 namespace etendue {
 
@@ -15,8 +16,9 @@ inline constexpr float kStudioBackdrop = 0.5f;
 /// up receives the irradiance pi.
 [[nodiscard]] float studio_radiance(const Vec3f& direction);
 
-/// Makes the studio the environment of `scene`, and puts its ground below the lowest vertex if the settings want one.
-/// Tells `problems` if the chosen camera is below, where a ground would hide the scene and is left out.
-void add_studio(SceneDesc& scene, ProblemList& problems);
+/// Makes the studio the environment of `scene`, and puts its ground below the lowest vertex of `swept` if the settings
+/// want one; an empty one is that of the scene as it is. Tells `problems` if the chosen camera is below, where a
+/// ground would hide the scene and is left out.
+void add_studio(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems);
 
 }  // namespace etendue

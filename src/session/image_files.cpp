@@ -2,6 +2,7 @@
 
 #include "core/log.h"
 #include "core/write_file.h"
+#include "image/finite.h"
 #include "output/auto_exposure.h"
 #include "output/preview_driver.h"
 #include "picture/exr_files.h"
@@ -207,6 +208,21 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
 void note_earlier_files(const std::vector<std::string>& names) {
     for (const std::string& name : names)
         log_warning("note: {} is of the image that was replaced, and still there", name);
+}
+
+void note_brightest(const OutputPaths& paths, const OutputFrame& frame, PixelDepth depth) {
+    // The standard of the container allows no other values.
+    if (depth != PixelDepth::Half || frame.aces_container) return;
+    const std::vector<float>& values = frame.pixels.pixels;
+    const auto channels = static_cast<std::size_t>(frame.pixels.channels);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < values.size(); i += channels)
+        if (std::max({values[i], values[i + 1], values[i + 2]}) > kLargestHalf) ++count;
+    if (count > 0)
+        log_warning(
+            "note: {}: {} pixels are brighter than {}, the largest of 16-bit floats, and have that value; "
+            "--float keeps them as they are",
+            paths.exr.string(), count, kLargestHalf);
 }
 
 void note_exposure(const OutputPaths& paths, const RenderStatistics& statistics) {

@@ -1,6 +1,7 @@
 #include "session/interrupt.h"
 
 #include <csignal>
+#include <cstdlib>
 
 namespace etendue {
 
@@ -11,9 +12,17 @@ std::atomic<bool> requested{false};
 std::atomic<bool> preview{false};
 std::atomic<int> signal_number{0};
 std::atomic<bool> second_ends{true};
+std::atomic<int> with_nothing_to_keep{0};
+std::atomic<int> with_something_to_keep{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
+ExitCode exit_code_of(int signal) {
+    return signal == SIGINT ? ExitCode::Interrupted : ExitCode::Terminated;
+}
+
 extern "C" void on_signal(int number) {
+    const bool loses_nothing = with_nothing_to_keep.load() > 0 && with_something_to_keep.load() == 0;
+    if (loses_nothing && !requested.load()) std::_Exit(static_cast<int>(exit_code_of(number)));
     signal_number.store(number);
     requested.store(true);
     if (!second_ends.load()) return;
@@ -62,7 +71,23 @@ void clear_preview_request() {
 }
 
 ExitCode interrupt_exit_code() {
-    return signal_number.load() == SIGINT ? ExitCode::Interrupted : ExitCode::Terminated;
+    return exit_code_of(signal_number.load());
+}
+
+NothingToKeep::NothingToKeep() {
+    ++with_nothing_to_keep;
+}
+
+NothingToKeep::~NothingToKeep() {
+    --with_nothing_to_keep;
+}
+
+SomethingToKeep::SomethingToKeep() {
+    ++with_something_to_keep;
+}
+
+SomethingToKeep::~SomethingToKeep() {
+    --with_something_to_keep;
 }
 
 }  // namespace etendue

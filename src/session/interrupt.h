@@ -1,5 +1,6 @@
-// SIGINT, SIGTERM and, unless it is ignored, SIGHUP: the first asks the render to stop and write what there is, a
-// second SIGINT or SIGTERM ends the process at once. SIGUSR1 asks it to show what there is and to go on.
+// SIGINT, SIGTERM and, unless it is ignored, SIGHUP: the first asks the render to stop and write what there is, or ends
+// the process where nothing would be lost; a second SIGINT or SIGTERM ends it in any case. SIGUSR1 asks it to show what
+// there is and to go on.
 #pragma once
 
 #include "session/exit_code.h"
@@ -18,7 +19,26 @@ void take_all_interrupts_for_one();
 /// Becomes true when a signal has arrived.
 [[nodiscard]] const std::atomic<bool>& interrupt_requested();
 
-/// Does what SIGINT does when it arrives for the first time, and nothing after any signal.
+/// Lets the first signal end the process at once while one lives: for what reads and builds, and looks at no request.
+class NothingToKeep {
+  public:
+    NothingToKeep();
+    ~NothingToKeep();
+    NothingToKeep(const NothingToKeep&) = delete;
+    NothingToKeep& operator=(const NothingToKeep&) = delete;
+};
+
+/// Makes signals requests again while one lives, where there is something to write that would be lost.
+class SomethingToKeep {
+  public:
+    SomethingToKeep();
+    ~SomethingToKeep();
+    SomethingToKeep(const SomethingToKeep&) = delete;
+    SomethingToKeep& operator=(const SomethingToKeep&) = delete;
+};
+
+/// Asks for what the first SIGINT asks for, and ends nothing: whoever calls has to answer. Does nothing after any
+/// signal.
 void request_interrupt();
 
 /// Does what SIGUSR1 does.

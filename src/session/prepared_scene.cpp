@@ -22,7 +22,7 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     overrides.apply_environment(prepared.scene);
     for (std::filesystem::path& file : ColorConfig::environment_files())
         prepared.scene.inputs.push_back(std::move(file));
-    complete_scene(prepared.scene, prepared.problems);
+    complete_scene(prepared.scene, loaded.swept, prepared.problems);
     prepared.inputs = stamp_inputs(prepared.scene, started);
     prepared.load = timer.elapsed();
     return prepared;

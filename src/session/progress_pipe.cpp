@@ -1,8 +1,11 @@
 #include "session/progress_pipe.h"
 
+#include "session/usage_error.h"
+
 #include <csignal>
 #include <string>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/types.h>
@@ -19,6 +22,15 @@ bool is_ready(int descriptor) {
 }
 
 }  // namespace
+
+void require_progress_reader(int descriptor) {
+    const int flags = ::fcntl(descriptor, F_GETFL);
+    if (flags == -1 || (flags & O_ACCMODE) == O_RDONLY)
+        throw UsageError(
+            fmt::format("--progress-fd {}: no file is open there to be written to; in a shell, {}>FILE "
+                        "behind the command opens one",
+                        descriptor, descriptor));
+}
 
 ProgressPipe::ProgressPipe(int descriptor) : descriptor_(descriptor) {
     // A reader that is gone would end the process, with all that was rendered.

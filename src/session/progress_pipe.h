@@ -7,6 +7,9 @@
 
 namespace etendue {
 
+/// Throws UsageError unless `descriptor` is open for writing. What is not would become that of some other file.
+void require_progress_reader(int descriptor);
+
 class ProgressPipe {
   public:
     /// Writes to the open `descriptor`; nothing if that is negative. A reader that is gone or slow is no reason to

@@ -92,6 +92,7 @@ class SceneRender {
         if (!request_.quiet)
             for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
         require_image_module();
+        const SomethingToKeep kept_from_signals;
         RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
         find_brightest_paths(world, *integrator_, options_, rendered);
         report_dropped(rendered.counters, request_.scene, request_.overrides, settings_);
@@ -359,6 +360,7 @@ class SceneRender {
                                        colors_, depth, threads_, title(), request_.quiet);
         });
         if (request_.quiet) return;
+        note_brightest(paths_, description_.frame, depth);
         note_exposure(paths_, description_.statistics);
         note_earlier_files(earlier);
     }

@@ -54,6 +54,8 @@ TEST_F(CommandMistakes, SayWhatAnOptionTakes) {
     expect_usage_error({"render", "scenes/box", "--spp"}, {"--spp needs a value behind it, INT in [1 - 16777216]"});
     expect_usage_error({"render", "scenes/box", "--seed", "-1"}, {"--seed: '-1' is not an integer in [0, 4294967295]"});
     expect_usage_error({"render", "scenes/box", "--texture-memory", "1K"}, {"'1K'", "M, G or T"});
+    expect_usage_error({"render", "scenes/box", "--spp", "4", "--spp", "8"}, {"--spp is given 2 times; give it once"});
+    expect_usage_error({"render", "scenes/box", "-o", ""}, {"--output: '' is not a file name"});
     expect_usage_error({"render", "scenes/box", "--samples", "0:8", "--spp", "4"},
                        {"--samples 0:8 goes beyond the 4 samples of --spp"});
     const ProgramResult memory = run({"render", "scenes/box", "--texture-memory", "8GB", "-o", "m.exr", "--quiet"});

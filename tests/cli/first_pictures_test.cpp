@@ -105,6 +105,18 @@ TEST_F(FirstPictures, PngGetsTheExposureThatItsImageAsksFor) {
     EXPECT_NE(read_image_8bit(work_ / "view.png").pixels, read_image_8bit(work_ / "b.png").pixels);
 }
 
+TEST_F(FirstPictures, SayWhatIsTooBrightForTheirFile) {
+    write_scene(work_ / "a");
+    const std::string settings = read_file(work_ / "a/render.json");
+    write_file(work_ / "a/render.json", std::string(settings).replace(settings.find("\"environment\": {}"), 17,
+                                                                      R"("environment": {"scale": 70000})"));
+    const std::string said = render({"a", "-o", "a.exr"});
+    EXPECT_TRUE(contains(said, " pixels are brighter than 65504, the largest of 16-bit floats")) << said;
+    EXPECT_EQ(corner("a.exr"), 65504.0f);
+    EXPECT_FALSE(contains(render({"a", "--float", "-o", "b.exr"}), "brighter than"));
+    EXPECT_NEAR(corner("b.exr"), 70000.0f, 1.0f);
+}
+
 TEST_F(FirstPictures, FramesHaveTheExposureOfTheFirst) {
     write_scene(work_ / "walk");
     const std::string scene = animated_scene((work_ / "walk").string());

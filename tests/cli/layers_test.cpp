@@ -99,12 +99,12 @@ TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
     replace(R"("asset": {"version": "2.0"},)",
             R"("asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
   "extensions": {"KHR_lights_punctual": {"lights": [
-      {"name": "key", "type": "directional", "color": [1, 0, 0], "intensity": 900},
-      {"name": "rim light", "type": "directional", "color": [0, 0, 1], "intensity": 500}]}},)");
+      {"name": "key light", "type": "directional", "color": [1, 0, 0], "intensity": 900},
+      {"name": "* light", "type": "directional", "color": [0, 0, 1], "intensity": 500}]}},)");
     replace(R"("nodes": [0, 1]}])", R"("nodes": [0, 1, 2, 3]}])");
     replace(R"({"name": "main", "camera": 0}])", R"({"name": "main", "camera": 0},
-            {"name": "key", "extensions": {"KHR_lights_punctual": {"light": 0}}},
-            {"name": "rim light", "extensions": {"KHR_lights_punctual": {"light": 1}}}])");
+            {"name": "key light", "extensions": {"KHR_lights_punctual": {"light": 0}}},
+            {"name": "* light", "extensions": {"KHR_lights_punctual": {"light": 1}}}])");
     write_file(file, scene);
     const ProgramResult result =
         render("a.exr", {"--aov", "lights", "--aov", "warm=light:k*", "--working-space", "lin_rec709"});
@@ -116,8 +116,8 @@ TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
         return found ? read_layer(work_ / "a.exr", *found) : ImageF();
     };
     const ImageF image = read_layer(work_ / "a.exr", *main_layer(layered));
-    const ImageF key = layer("light_key");
-    const ImageF rim = layer("light_rim_light");
+    const ImageF key = layer("light_key_light");
+    const ImageF rim = layer("light___light");
     const ImageF sky = layer("light_environment");
     const ImageF warm = layer("warm");
     ASSERT_FALSE(HasFailure());

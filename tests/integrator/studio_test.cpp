@@ -44,7 +44,7 @@ SceneDesc balls_in_studio() {
     add_object(scene, sphere({1.1f, 0.5f, 0.0f}, 0.5f, 12), add_material(scene, glass));
     look_at(scene, {0.5f, 1.5f, 4.5f}, {0.0f, 0.3f, 0.0f});
     ProblemList problems;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     return scene;
 }
 

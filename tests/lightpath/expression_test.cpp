@@ -35,6 +35,8 @@ TEST(ParseExpression, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(error_of("C [] L").first, "a set without events");
     EXPECT_EQ(error_of("C <RD L").second, 2u);
     EXPECT_EQ(error_of("C <RD'gold> L").first, "a name without its closing quote");
+    EXPECT_EQ(error_of(R"(C <RD'gold\'> L)").first, "a name without its closing quote");
+    EXPECT_NO_THROW((void)parse_expression(R"(C <RD'it\'s "gold" \\'> L)"));
     EXPECT_EQ(error_of("C <RT> L").first, "no event is all of this at once");
     EXPECT_EQ(error_of("C <L''>").first, "an empty name");
     for (const char* counts : {"C D{} L", "C D{3,1} L", "C D{0} L", "C D{65} L", "C D{-1} L", "C D{99999999999} L"})

@@ -20,6 +20,15 @@ TEST(MatchesLabel, AStarStandsForAnyCharacters) {
     EXPECT_FALSE(matches_label("", "a"));
 }
 
+TEST(MatchesLabel, ABackslashMakesAStarOne) {
+    for (const char* name : {"*", "key*", "a\\", "\\*", "it's", R"("it's")"}) {
+        EXPECT_TRUE(matches_label(label_pattern(name), name)) << name;
+        EXPECT_FALSE(matches_label(label_pattern(name), std::string(name) + "x")) << name;
+    }
+    EXPECT_FALSE(matches_label(label_pattern("*"), "key"));
+    EXPECT_TRUE(matches_label("C:\\lamp", "C:\\lamp")) << "before other characters it is itself";
+}
+
 TEST(MatchesLabel, ManyStarsDoNotTakeLong) {
     EXPECT_FALSE(matches_label(std::string(2000, '*') + "b", std::string(2000, 'a')));
     std::string pattern;

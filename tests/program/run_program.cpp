@@ -109,9 +109,11 @@ std::filesystem::path program_file() {
 
 bool handles_interrupt(int pid) {
     std::ifstream status(fmt::format("/proc/{}/status", pid));
-    for (std::string line; std::getline(status, line);)
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("State:\tZ")) return false;  // it has ended
         if (line.starts_with("SigCgt:"))
             return (std::stoull(line.substr(7), nullptr, 16) & (1ull << (SIGINT - 1))) != 0;
+    }
     return false;
 }
 

@@ -72,7 +72,7 @@ TEST(Studio, GroundIsBelowTheLowestVertex) {
         lowest = std::min(lowest, transform_point(scene.instances[0].to_world, p).y);
     scene.cameras.at(0).to_world[3][1] = 100.0f;
     ProblemList problems;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     ASSERT_NE(ground_of(scene), nullptr);
     EXPECT_LT(ground_height(scene), lowest);
     EXPECT_NEAR(ground_height(scene), lowest, 0.01f);
@@ -84,7 +84,7 @@ TEST(Studio, GroundFacesUp) {
     SceneDesc scene = dark_scene();
     scene.cameras.at(0).to_world[3][1] = 100.0f;
     ProblemList problems;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     for (const PrimitiveDesc& primitive : scene.meshes.at(std::size_t(ground_of(scene)->mesh.index)).primitives)
         for (const auto& t : primitive.triangles) {
             const Vec3f& a = primitive.positions.at(t[0]);
@@ -97,13 +97,13 @@ TEST(Studio, HasNoGroundWhereNoneIsWanted) {
     scene.cameras.at(0).to_world[3][1] = 100.0f;
     scene.settings.ground = false;
     ProblemList problems;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     EXPECT_EQ(ground_of(scene), nullptr);
     EXPECT_TRUE(scene.environment.is_studio);
 
     SceneDesc below = dark_scene();
     below.cameras.at(0).to_world[3][1] = -100.0f;
-    add_studio(below, problems);
+    add_studio(below, {}, problems);
     EXPECT_EQ(ground_of(below), nullptr);
     ASSERT_EQ(problems.all().size(), 1u);
     EXPECT_NE(problems.all()[0].message.find("camera is below"), std::string::npos);
@@ -116,7 +116,7 @@ TEST(Studio, KeepsHowTheEnvironmentIsTurnedAndSeen) {
     scene.environment.scale = 0.0f;
     scene.environment.visible_to_camera = false;
     ProblemList problems;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     EXPECT_TRUE(scene.environment.enabled);
     EXPECT_TRUE(scene.environment.is_studio);
     EXPECT_TRUE(scene.environment.image.empty());
@@ -124,7 +124,7 @@ TEST(Studio, KeepsHowTheEnvironmentIsTurnedAndSeen) {
     EXPECT_FALSE(scene.environment.visible_to_camera);
     EXPECT_EQ(scene.environment.scale, 1.0f) << "it shines in place of what is black";
     scene.environment.scale = 2.0f;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     EXPECT_EQ(scene.environment.scale, 2.0f);
 }
 
@@ -134,11 +134,11 @@ TEST(Studio, GroundIsLeftOutBelowTheEyeThatIsGiven) {
     scene.cameras.at(0).to_world[3][1] = 100.0f;
     scene.settings.camera_place = CameraPlace{.eye = {0.0, 900.0, 0.0}};
     ProblemList problems;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     EXPECT_EQ(ground_of(scene), nullptr);
     scene.settings.camera_place->eye.y = 1100.0;
     scene.cameras.at(0).to_world[3][1] = -100.0f;
-    add_studio(scene, problems);
+    add_studio(scene, {}, problems);
     EXPECT_NE(ground_of(scene), nullptr);
 }
 

@@ -4,9 +4,11 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace etendue::test {
 
@@ -19,6 +21,31 @@ TEST(PrepareScene, AddsWhatIsMissingAndSaysSo) {
     const PreparedScene prepared = prepare_scene(folder.path(), {});
     EXPECT_TRUE(prepared.scene.environment.enabled);
     EXPECT_FALSE(prepared.problems.all().empty());
+}
+
+TEST(PrepareScene, FramesHaveOneCameraAndOneGround) {
+    const TestFolder folder;
+    write_scene(folder.path());
+    write_file(folder / "render.json", "{}");
+    (void)animated_scene(folder.path().string());
+    nlohmann::json gltf = nlohmann::json::parse(read_file(folder / "scene.gltf"));
+    gltf.erase("cameras");
+    gltf["nodes"][1].erase("camera");
+    write_file(folder / "scene.gltf", gltf.dump());
+    const auto at = [&](std::optional<int> frame) {
+        SettingsOverrides overrides;
+        overrides.frame = frame;
+        if (!frame) overrides.give("--time-code", "1");
+        return prepare_scene(folder.path(), overrides).scene;
+    };
+    const SceneDesc first = at(0);
+    const SceneDesc last = at(24);
+    const SceneDesc alone = at(std::nullopt);
+    const auto ground = [](const SceneDesc& scene) { return scene.meshes.back().primitives.at(0).positions; };
+    EXPECT_EQ(first.cameras.at(0).to_world, last.cameras.at(0).to_world);
+    EXPECT_EQ(ground(first), ground(last));
+    EXPECT_NE(alone.cameras.at(0).to_world, last.cameras.at(0).to_world) << "a moment is framed by itself";
+    EXPECT_NE(ground(alone), ground(last));
 }
 
 TEST(PrepareScene, OverridesAreValidatedToo) {

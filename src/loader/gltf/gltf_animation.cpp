@@ -271,4 +271,15 @@ NodePoses AnimationSampler::poses(double seconds) const {
     return poses;
 }
 
+std::array<double, 2> AnimationSampler::time_span() const {
+    std::array<double, 2> span{};
+    for (const Channel& channel : channels_) {
+        const bool is_first = &channel == channels_.data();
+        const double first = static_cast<double>(channel.keys.times.front());
+        const double last = static_cast<double>(channel.keys.times.back());
+        span = {is_first ? first : std::min(span[0], first), is_first ? last : std::max(span[1], last)};
+    }
+    return span;
+}
+
 }  // namespace etendue

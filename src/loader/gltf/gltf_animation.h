@@ -64,6 +64,8 @@ class AnimationSampler {
     /// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
     /// sampler's interpolation (glTF 2.0 specification, appendix C).
     [[nodiscard]] NodePoses poses(double seconds) const;
+    /// Returns the times of the first key and of the last of all that moves nodes; twice 0 if nothing does.
+    [[nodiscard]] std::array<double, 2> time_span() const;
     /// Returns the values at `seconds` of what the animations move besides nodes (KHR_animation_pointer), interpolated
     /// as by `poses`.
     [[nodiscard]] std::vector<PointerValue> pointer_values(double seconds) const;

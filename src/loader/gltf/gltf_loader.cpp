@@ -55,8 +55,8 @@ bool GltfLoader::can_load(const std::filesystem::path& file) const {
     return stream && std::string_view(magic.data(), magic.size()) == "glTF";
 }
 
-void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
-                      ProblemList& problems) const {
+SweptSpace GltfLoader::load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+                            ProblemList& problems) const {
     const RenderSettings& settings = scene.settings;
     GltfDocument document = read_gltf_document(file, problems);
     scene.extensions_used = document.extensions_used;
@@ -90,6 +90,9 @@ void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& opti
     const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     read_nodes(document, accessors, deformations, sampler ? &*sampler : nullptr, settings, scene, problems);
     read_extras(document, scene);
+    const bool is_complete = !scene.cameras.empty() && (!scene.lights.empty() || scene.environment.enabled);
+    if (!settings.frame || !sampler || is_complete || problems.has_errors()) return {};
+    return swept_by_animation(document, deformations, *sampler, settings, scene);
 }
 
 }  // namespace etendue

@@ -8,8 +8,8 @@ namespace etendue {
 class GltfLoader : public SceneLoader {
   public:
     [[nodiscard]] bool can_load(const std::filesystem::path& file) const override;
-    void load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
-              ProblemList& problems) const override;
+    SweptSpace load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+                    ProblemList& problems) const override;
 };
 
 }  // namespace etendue

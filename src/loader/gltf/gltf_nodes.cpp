@@ -263,6 +263,16 @@ class PlacedCounts {
     std::size_t lights_;
 };
 
+/// Adds to `scene` all that `nodes` place.
+void place_all(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
+               const PosedNodes& nodes, std::span<const int> parents, SceneDesc& scene, ProblemList& problems) {
+    MeshDeformer deformer(document, accessors, deformations, nodes, scene, problems);
+    Placer placer(document, accessors, deformer, nodes, scene, problems);
+    placer.add_nodes(parents);
+    for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
+    placer.report_moving_lights();
+}
+
 }  // namespace
 
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
@@ -282,24 +292,44 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
     if (structure.has_errors()) return;
 
     PosedNodes nodes(document, roots, parents, animation, settings, accessors, problems);
-    const auto place_all = [&] {
-        MeshDeformer deformer(document, accessors, deformations, nodes, scene, problems);
-        Placer placer(document, accessors, deformer, nodes, scene, problems);
-        placer.add_nodes(parents);
-        for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
-        placer.report_moving_lights();
-    };
     const PlacedCounts counts(scene);
     const ProblemList before = problems;
-    place_all();
+    place_all(document, accessors, deformations, nodes, parents, scene, problems);
     // Only what is placed shows whether it is far away. If so, nothing of it is precise, and all is placed anew.
     if (const Vec3d origin = choose_origin(compute_bounds(scene)); origin != Vec3d(0.0) && !problems.has_errors()) {
         counts.restore(scene);
         problems = before;
         scene.origin = origin;
         nodes.move_origin(origin);
-        place_all();
+        place_all(document, accessors, deformations, nodes, parents, scene, problems);
     }
+}
+
+SweptSpace swept_by_animation(const GltfDocument& document, std::span<const MeshDeformation> deformations,
+                              const AnimationSampler& animation, const RenderSettings& settings, SceneDesc& scene) {
+    constexpr int kMoments = 33;
+    ProblemList problems;  // `read_nodes` has told of them
+    const std::vector<int> parents = find_parents(document, problems);
+    const std::vector<int> roots = find_roots(document, scene.shown_scene, parents, problems);
+    RenderSettings shown = settings;
+    shown.frame.reset();
+    shown.shutter = {};
+    std::vector<InstanceDesc> instances;
+    std::swap(instances, scene.instances);
+    const PlacedCounts counts(scene);
+    const auto [first, last] = animation.time_span();
+    SweptSpace swept;
+    for (int i = 0; i < kMoments && !problems.has_errors(); ++i) {
+        shown.time_code = std::lerp(first, last, static_cast<double>(i) / (kMoments - 1));
+        AccessorReader accessors(document, problems);
+        PosedNodes nodes(document, roots, parents, &animation, shown, accessors, problems);
+        nodes.move_origin(scene.origin);
+        place_all(document, accessors, deformations, nodes, parents, scene, problems);
+        swept.extend(scene);
+        counts.restore(scene);
+    }
+    std::swap(instances, scene.instances);
+    return problems.has_errors() ? SweptSpace() : swept;
 }
 
 }  // namespace etendue

@@ -6,6 +6,7 @@
 #include "loader/gltf/gltf_deformation.h"
 #include "loader/gltf/gltf_document.h"
 #include "scene/scene_desc.h"
+#include "scene/swept_space.h"
 
 #include <span>
 
@@ -20,5 +21,11 @@ namespace etendue {
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
                 const AnimationSampler* animation, const RenderSettings& settings, SceneDesc& scene,
                 ProblemList& problems);
+
+/// Returns the room that what `read_nodes` has placed in `scene` takes in the course of `animation`, at moments spread
+/// over it; nothing if that cannot be found out. Leaves `scene` as it is.
+[[nodiscard]] SweptSpace swept_by_animation(const GltfDocument& document, std::span<const MeshDeformation> deformations,
+                                            const AnimationSampler& animation, const RenderSettings& settings,
+                                            SceneDesc& scene);
 
 }  // namespace etendue

@@ -176,11 +176,15 @@ void JsonObject::report_unknown_name(const SourceLocation& where, std::string_vi
     problems_.error(where, fmt::format("unknown name '{}'; {}", shown(name), name_hint(name, known)));
 }
 
-void JsonObject::finish() {
-    const std::vector<std::string_view> known(known_.begin(), known_.end());
+void JsonObject::finish(PlaceOfKey place) {
+    std::vector<std::string_view> known;
+    for (const std::string& key : known_)
+        if (std::ranges::find(known, key) == known.end()) known.push_back(key);
     for (const auto& [key, value] : object_->items()) {
         if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
-        problems_.error(at(key), fmt::format("unknown key '{}'; {}", shown(key), name_hint(key, known)));
+        const std::string elsewhere = place != nullptr ? place(key) : "";
+        problems_.error(at(key), fmt::format("unknown key '{}'; {}", shown(key),
+                                             elsewhere.empty() ? name_hint(key, known) : elsewhere));
     }
 }
 

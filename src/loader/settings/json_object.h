@@ -79,8 +79,11 @@ class JsonObject {
         }
     }
 
-    /// An error for each member that has not been asked for, with the nearest one that has.
-    void finish();
+    /// Returns where a key belongs that is not of this object, in words; empty if that is not known.
+    using PlaceOfKey = std::string (*)(std::string_view key);
+
+    /// An error for each member that has not been asked for, with its place elsewhere or the nearest one that has.
+    void finish(PlaceOfKey place = nullptr);
 
     [[nodiscard]] bool has(std::string_view key) const { return object_->contains(key); }
     [[nodiscard]] SourceLocation at(std::string_view key) const;

@@ -176,6 +176,17 @@ void read_camera_member(JsonObject& object, RenderJson& out) {
     }
 }
 
+/// Says where the setting stands whose pointer ends in `key`; empty if there is none.
+std::string place_of_setting(std::string_view key) {
+    for (const Setting& setting : settings_table()) {
+        const std::size_t slash = setting.pointer.rfind('/');
+        if (setting.pointer.substr(slash + 1) != key) continue;
+        if (slash == 0) return "it belongs outside of this object";
+        return fmt::format("it belongs in '{}'", setting.pointer.substr(1, slash - 1));
+    }
+    return {};
+}
+
 /// Reads the settings of the table that stand in `object`, whose pointer is `parent`, and in the objects within.
 void read_table(JsonObject& object, std::string_view parent, RenderSettings& settings) {
     std::vector<std::string_view> objects;
@@ -203,7 +214,7 @@ void read_table(JsonObject& object, std::string_view parent, RenderSettings& set
         if (member == nullptr) continue;
         JsonObject inner(*member, object.at(name), object.problems());
         read_table(inner, fmt::format("{}/{}", parent, name), settings);
-        inner.finish();
+        inner.finish(place_of_setting);
     }
 }
 
@@ -249,7 +260,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
         out.environment = read_environment(*member, object.at("environment"), problems);
     }
     read_overrides(object, out);
-    object.finish();
+    object.finish(place_of_setting);
 }
 
 }  // namespace

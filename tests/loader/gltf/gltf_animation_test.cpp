@@ -44,6 +44,25 @@ TEST(Animation, TranslationsAreInterpolatedAndHeldAtTheEnds) {
     EXPECT_EQ(moved(builder, 99.0, Vec3f(0.0f)), Vec3f(4, 8, 0));
 }
 
+TEST(Animation, FramesHaveTheStageOfTheWhole) {
+    GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
+    for (const int frame : {0, 36, 999}) {
+        const LoadedScene loaded = builder.load({.frame = frame});
+        EXPECT_EQ(loaded.swept.bounds.min, Vec3f(0, 0, 0));
+        EXPECT_EQ(loaded.swept.bounds.max, Vec3f(5, 9, 0));
+        EXPECT_EQ(loaded.swept.lowest, 0.0f);
+        EXPECT_EQ(loaded.scene.instances.size(), 1u);
+        EXPECT_EQ(loaded.scene.nodes.size(), 1u);
+    }
+    EXPECT_TRUE(builder.load(at_time(2.0)).swept.bounds.empty()) << "a moment is framed by itself";
+    builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    builder.json["nodes"][0]["camera"] = 0;
+    EXPECT_FALSE(builder.load({.frame = 0}).swept.bounds.empty()) << "the studio may have a ground";
+    builder.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    EXPECT_TRUE(builder.load({.frame = 0}).swept.bounds.empty()) << "nothing has to be placed";
+}
+
 TEST(Animation, StepsWaitForTheNextKey) {
     const GltfBuilder builder = animated("scale", {1, 1, 1, 2, 2, 2}, 3, "STEP");
     EXPECT_EQ(moved(builder, 2.999, Vec3f(1.0f)), Vec3f(1.0f));

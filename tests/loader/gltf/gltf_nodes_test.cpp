@@ -323,6 +323,10 @@ TEST(Cameras, AreFoundByTheirNodesAndANoteSaysWhichWasTaken) {
     EXPECT_TRUE(has_problem(builder.load().problems, Severity::Note,
                             "2 cameras, of which the first, 'Data', is taken; --camera NAME takes another: 'Side'",
                             "/cameras"));
+    builder.json["nodes"].push_back({{"camera", 0}, {"name", "Side"}});
+    builder.json["scenes"][0]["nodes"].push_back(3);
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Note, "takes another: 'Side', 'Data-3'", "/cameras"))
+        << "a node's name stands for the first of its name";
     builder.json["cameras"][0]["name"] = "Side";
     EXPECT_EQ(find_camera(builder.load().scene, "Side")->node, "Hero") << "a camera's own name goes first";
 }

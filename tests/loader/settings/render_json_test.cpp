@@ -111,6 +111,15 @@ TEST(RenderJson, UnknownKeysSuggestTheNearest) {
     EXPECT_NE(parsed.problems.all()[0].where.file.find("render.json"), std::string::npos);
 }
 
+TEST(RenderJson, KnownKeysThatAreUnknownHereAreToldTheirPlace) {
+    const Parsed parsed = parse(R"({"max_depth": 3, "exposure": 1, "integrator": {"spp": 4}, "zzz": 1})");
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "it belongs in 'integrator'", "/max_depth"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "it belongs in 'color'", "/exposure"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "it belongs outside of this object", "/integrator/spp"));
+    EXPECT_FALSE(has_problem(parsed.problems, Severity::Error, "'animation', 'animation'")) << "no name stands twice";
+    EXPECT_EQ(parsed.problems.error_count(), 4u);
+}
+
 TEST(RenderJson, ErrorsStateWhatIsExpected) {
     const Parsed parsed = parse(R"({"spp": 0, "time": "x", "size": [3], "camera":
         {"position": [0, 0, 1], "look_at": [0, 0, 0], "yfov": 4}, "sampler": "sobel", "focus_distance": 0})");
