@@ -299,10 +299,12 @@ TEST(Shapes, RectanglesAreSampledAsRectangles) {
     ASSERT_EQ(world.lights().count(), 1u);
     ASSERT_NE(world.lights().even_mesh(0), nullptr);
     EXPECT_EQ(world.lights().even_mesh(0)->area(), 2.0f);
-    EXPECT_TRUE(world.traits().chooses_lights_by_receiver);
-    // Its front looks along -z: only from there it shines.
+    // Its front looks along -z: only from there it shines, with one density in all directions.
     const LightNumbers u{{0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}};
-    EXPECT_GT(world.lights().sample(Vec3f(0.0f, 0.0f, -0.3f), u).sample.pdf_solid_angle, 0.0f);
+    const LightNumbers v{{0.1f, 0.2f}, {0.8f, 0.1f}, {0.9f, 0.2f}};
+    const float density = world.lights().sample(Vec3f(0.0f, 0.0f, -0.3f), u).sample.pdf_solid_angle;
+    EXPECT_GT(density, 0.0f);
+    EXPECT_NEAR(world.lights().sample(Vec3f(0.0f, 0.0f, -0.3f), v).sample.pdf_solid_angle / density, 1.0f, 1e-4f);
     EXPECT_EQ(world.lights().sample(Vec3f(0.0f, 0.0f, 0.3f), u).sample.pdf_solid_angle, 0.0f);
 }
 
