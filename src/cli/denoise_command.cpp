@@ -1,4 +1,5 @@
 // etendue denoise: an image with less noise, from what the renderer knows of its noise.
+#include "cli/command_options.h"
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/log.h"
