@@ -1,4 +1,4 @@
-// What is recorded, reported and said of a batch while it works.
+// The record of a batch: ledger, report and messages while it works.
 #pragma once
 
 #include "batch/batch_attempt.h"

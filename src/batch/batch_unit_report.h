@@ -1,4 +1,4 @@
-// What the report of a batch says of an image before anything is done for it.
+// The entry of an image in the report of a batch before anything is done for it.
 #pragma once
 
 #include "batch/batch_ledger.h"

@@ -15,7 +15,7 @@ Vec3f facing(const Vec3f& w, const Vec3f& wo) {
     return wo.z < 0.0f ? Vec3f(w.x, w.y, -w.z) : w;
 }
 
-/// Says what of the light that meets diffuse transmission from the side of the higher index passes. The rest stays
+/// Says which share of light passes diffuse transmission from the side of the higher index. The rest stays
 /// there: radiance is higher by the squared index on that side, and what refraction has let in must not leave
 /// amplified.
 struct DenseSide {

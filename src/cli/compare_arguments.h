@@ -1,4 +1,4 @@
-// What a command line of `etendue compare` asks for.
+// The arguments of `etendue compare`.
 #pragma once
 
 #include "compare/comparison_measures.h"

@@ -1,4 +1,4 @@
-// What `etendue compare` does once its command line is read.
+// The run of `etendue compare`, once its command line is read.
 #pragma once
 
 #include "cli/compare_arguments.h"

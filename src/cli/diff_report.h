@@ -1,4 +1,4 @@
-// What `etendue diff` says of two images.
+// The report of `etendue diff` on two images.
 #pragma once
 
 #include "compare/image_measures.h"

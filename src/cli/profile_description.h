@@ -1,4 +1,4 @@
-// What the report of `etendue profile` says of the scene, the machine and the runs.
+// The description of the scene, the machine and the runs in the report of `etendue profile`.
 #pragma once
 
 #include "profile/profile_runs.h"

@@ -1,4 +1,4 @@
-// What expressions and layers call what shines in a scene.
+// The names that expressions and layers have for lights.
 #pragma once
 
 #include "lightpath/automaton.h"

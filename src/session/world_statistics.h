@@ -1,4 +1,4 @@
-// What the statistics of a render tell of the compiled scene.
+// The compiled scene in the statistics of a render.
 #pragma once
 
 #include "output/statistics.h"

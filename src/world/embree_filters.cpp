@@ -13,7 +13,7 @@ const QueryContext& context_of(const RTCFilterFunctionNArguments& args) {
     return *reinterpret_cast<const QueryContext*>(args.context);
 }
 
-/// The surface that ray `i` of a packet may hit.
+/// Returns the surface that ray `i` of a packet may hit.
 Hit hit_of(const RTCFilterFunctionNArguments& args, unsigned int i) {
     const EmbreeEntries& entries = context_of(args).scene->entries();
     return entries.make_hit(RTCRayN_tfar(args.ray, args.N, i), RTCHitN_u(args.hit, args.N, i),
@@ -29,8 +29,8 @@ bool stops(const RTCFilterFunctionNArguments& args, unsigned int i, const Hit& h
     return stops_ray(context.alpha_key(RTCRayN_id(args.ray, args.N, i)), hit, opacity);
 }
 
-/// The cosine, of any length, between ray `i` of a packet and the normal on the front of what it may hit. Both are
-/// those of the mesh where it is an instance, and its front is there what it is in the file.
+/// Returns the cosine, times any length, between ray `i` of a packet and the normal on the front of what it may hit.
+/// Both are those of the mesh where it is an instance, and its front is there what it is in the file.
 float cosine_to_front(const RTCFilterFunctionNArguments& args, unsigned int i) {
     return RTCRayN_dir_x(args.ray, args.N, i) * RTCHitN_Ng_x(args.hit, args.N, i) +
            RTCRayN_dir_y(args.ray, args.N, i) * RTCHitN_Ng_y(args.hit, args.N, i) +

@@ -12,7 +12,7 @@ namespace etendue {
 
 namespace {
 
-/// The part of a convex polygon on the side of `edge_normal` of a point.
+/// Returns the part of a convex polygon on the side of `edge_normal` of a point.
 void clip(std::vector<Vec3d>& polygon, const Vec3d& on_edge, const Vec3d& edge_normal) {
     std::vector<Vec3d> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {

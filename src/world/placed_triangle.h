@@ -11,7 +11,7 @@
 
 namespace etendue {
 
-/// A triangle of an instance in world space, in the middle of the shutter.
+/// Returns a triangle of an instance in world space, in the middle of the shutter.
 struct PlacedTriangle {
     std::array<Vec3d, 3> p;
     Vec3d normal;  ///< unit, on the front

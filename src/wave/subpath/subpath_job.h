@@ -1,4 +1,4 @@
-// What subpaths are traced for.
+// The job that subpaths are traced for.
 #pragma once
 
 #include "core/ray.h"
