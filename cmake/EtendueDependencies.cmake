@@ -61,6 +61,8 @@ etendue_find(fmt libfmt-dev)
 etendue_find(spdlog libspdlog-dev)
 etendue_find(CLI11 libcli11-dev)
 etendue_find_pkgconfig(httplib cpp-httplib>=0.11 libcpp-httplib-dev)
+# Functions in the header of newer httplib call it.
+etendue_find_pkgconfig(libcrypto libcrypto libssl-dev)
 etendue_find(Python3 python3 COMPONENTS Interpreter)
 if(ETENDUE_BUILD_TESTS)
   etendue_find(GTest libgtest-dev)
