@@ -225,7 +225,7 @@ std::uint64_t parse_memory(const char* option, const std::string& text) {
 
 /// Adds what says which images there are, and which of them are made first.
 void add_image_options(CLI::App& command, BatchOptions& options) {
-    command.add_option("dirs", options.roots, "Directories to look for scene directories in, or glTF files")
+    command.add_option("DIRS", options.roots, "Directories to look for scene directories in, or glTF files")
         ->required()
         ->check(CLI::ExistingPath);
     command.add_option("-o,--output", options.output, "Directory for the images; made if it does not exist")

@@ -268,7 +268,7 @@ ExitCode run_denoise(const DenoiseArguments& arguments) {
 void add_denoise_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<DenoiseArguments>();
     CLI::App* command = app.add_subcommand("denoise", "Take the noise out of an image");
-    command->add_option("image", arguments->image, "EXR file of 'etendue render --aov denoising'")
+    command->add_option("IMAGE", arguments->image, "EXR file of 'etendue render --aov denoising'")
         ->required()
         ->check(CLI::ExistingFile);
     command->add_option("-o,--output", arguments->output, "EXR file to write")->required();

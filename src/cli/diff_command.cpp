@@ -209,8 +209,8 @@ ExitCode run_diff(const DiffArguments& arguments) {
 }
 
 void add_diff_options(CLI::App& command, DiffArguments& arguments) {
-    command.add_option("image", arguments.image, "The image to judge: EXR, HDR, PNG, JPEG, TIFF or WebP")->required();
-    command.add_option("reference", arguments.reference, "What it should look like")->required();
+    command.add_option("IMAGE", arguments.image, "The image to judge: EXR, HDR, PNG, JPEG, TIFF or WebP")->required();
+    command.add_option("REFERENCE", arguments.reference, "What it should look like")->required();
     command
         .add_option("--metric", arguments.measures,
                     "Measures to take, with commas between them (default: all five and flip)")

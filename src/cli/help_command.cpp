@@ -27,7 +27,7 @@ std::string help_text(const std::string& command) {
 void add_help_command(CLI::App& app, Action& action) {
     auto name = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "Print what --help prints, of the program or of a command");
-    command->add_option("command", *name, "Command to tell of (default: the program)");
+    command->add_option("COMMAND", *name, "Command to tell of (default: the program)");
     command->footer(
         "Examples:\n"
         "  etendue help\n"

@@ -263,10 +263,9 @@ void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
     command
-        ->add_option("scenes", arguments->paths,
+        ->add_option("SCENES", arguments->paths,
                      "Scene directories, .gltf or .glb files, or directories with scenes below them")
-        ->required()
-        ->configurable(false);
+        ->required();
     add_settings_options(*command, arguments->overrides);
     command->add_flag("--json", arguments->json, "Print JSON; of several scenes, an array");
     command->footer(

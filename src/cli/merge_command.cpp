@@ -154,7 +154,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
 void add_merge_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<MergeArguments>();
     CLI::App* command = app.add_subcommand("merge", "Make one image of parts that were rendered apart");
-    command->add_option("parts", arguments->parts, "Files of 'etendue render -o PART.partial'")
+    command->add_option("PARTS", arguments->parts, "Files of 'etendue render -o PART.partial'")
         ->required()
         ->check(CLI::ExistingFile);
     command

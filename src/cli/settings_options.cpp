@@ -193,8 +193,8 @@ void add_png_option(CLI::App& command, SettingsOverrides& overrides) {
 }
 
 void add_scene_argument(CLI::App& command, std::string& scene) {
-    // Newer versions of CLI11 take it for --scene of a configuration file otherwise.
-    command.add_option("scene", scene, "Scene directory, .gltf or .glb")->required()->configurable(false);
+    // In capitals: newer versions of CLI11 take a word of an option's name for that option in a configuration file.
+    command.add_option("SCENE", scene, "Scene directory, .gltf or .glb")->required();
 }
 
 void add_settings_options(CLI::App& command, SettingsOverrides& overrides,

@@ -281,7 +281,7 @@ void add_submit_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<SubmitArguments>();
     CLI::App* command = app.add_subcommand("submit", "Render scenes on a cluster, or tell what has become of them");
     auto* dirs =
-        command->add_option("dirs", arguments->roots, "Directories to look for scene directories in, or glTF files")
+        command->add_option("DIRS", arguments->roots, "Directories to look for scene directories in, or glTF files")
             ->check(CLI::ExistingPath);
     auto* output = command->add_option("-o,--output", arguments->output,
                                        "Directory for the images, on a file system that all nodes share");

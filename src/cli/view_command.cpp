@@ -267,7 +267,7 @@ void check(const ViewArguments& arguments) {
 }
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
-    command.add_option("file", arguments.file, "EXR or HDR file");
+    command.add_option("FILE", arguments.file, "EXR or HDR file");
     command.add_option("-o,--output", arguments.output, "PNG file to write");
     command.add_option("--layer", arguments.layer,
                        "Layer to show, one channel by its whole name, or a Cryptomatte (default: the first layer of "
