@@ -126,7 +126,7 @@ SampleWork take_samples(const World& world, const IntegratorSettings& settings, 
     job.first_sample = index;
     job.merging = make_merging(
         world, job.full_width, job.full_height, static_cast<double>(job.rect.area()), index,
-        {.at = MergeAt::BetweenDeltas, .radius = settings.merging.radius, .alpha = settings.merging.alpha});
+        {.at = MergeAt::SeenByDeltas, .radius = settings.merging.radius, .alpha = settings.merging.alpha});
     std::vector<CameraSample> samples(job.rect.area());
     std::vector<Ray> rays(samples.size());
     generate_camera_rays(world, job, 0, samples, rays);

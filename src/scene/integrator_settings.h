@@ -45,14 +45,14 @@ inline constexpr std::string_view kMergesName = "merging";
 
 /// Says which vertices of both subpaths merge.
 enum class MergeAt : std::uint8_t {
-    Nothing,        ///< none: bidirectional path tracing without merging
-    BetweenDeltas,  ///< vertices that both subpaths reach by a delta, whose paths no connection finds
-    Everywhere,     ///< all that scatter by more than deltas: the algorithm as it was published
+    Nothing,       ///< none: bidirectional path tracing without merging
+    SeenByDeltas,  ///< what the eye sees by deltas alone, so that nothing there is connected to the lens
+    Everywhere,    ///< all that scatter by more than deltas: the algorithm as it was published
 };
 
 /// Says how subpaths merge.
 struct MergeSettings {
-    MergeAt at = MergeAt::BetweenDeltas;
+    MergeAt at = MergeAt::SeenByDeltas;
     double radius = 1.5;  ///< radius of the first sample, in widths of a pixel, [0.01, 100]
     double alpha = 0.75;  ///< [0.1, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
 };

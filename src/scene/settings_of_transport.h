@@ -10,7 +10,7 @@
 namespace etendue {
 
 inline constexpr std::array<std::pair<std::string_view, MergeAt>, 3> kMergeNames{{
-    {"sds", MergeAt::BetweenDeltas},
+    {"sds", MergeAt::SeenByDeltas},
     {"all", MergeAt::Everywhere},
     {"none", MergeAt::Nothing},
 }};
@@ -118,8 +118,8 @@ inline constexpr std::array kTransportSettings{
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,
             .decides = Decides::Samples,
-            .help = "Which vertices `vcm` merges: those between two mirrors or smooth refractions, which no connection "
-                    "finds (`sds`), `all`, or `none`, which is `bdpt`",
+            .help = "Where `vcm` merges: at what the eye sees in mirrors and through smooth refractions, which finds "
+                    "what no connection does (`sds`), at `all` vertices, or at `none`, which is `bdpt`",
             .page = "integrators.md#vcm",
             .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merging.at; })},
     Setting{.pointer = "/integrator/merge_radius",

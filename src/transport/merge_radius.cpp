@@ -7,7 +7,7 @@ namespace etendue {
 
 Merging make_merging(const World& world, int width, int height, double light_paths, std::uint32_t sample,
                      const MergeSettings& options) {
-    if (!world.traits().has_lights || (options.at == MergeAt::BetweenDeltas && !world.traits().has_specular_surfaces))
+    if (!world.traits().has_lights || (options.at == MergeAt::SeenByDeltas && !world.traits().has_specular_surfaces))
         return {};
     // In radii of the scene. Below the least, places are known too coarsely.
     constexpr float kLeast = 1e-6f;

@@ -51,6 +51,7 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "transport/dimensions.h"
 #include "transport/heuristic.h"
 #include "transport/merge_radius.h"
 #include "world/world.h"
@@ -70,12 +71,10 @@ struct MisContext {
     bool aims = false;  ///< light subpaths are aimed, see LightEmitter::sample
 };
 
-/// Holds a and b of a vertex, raised; and what merges add to D, here and at the vertex before (transport/merging.h).
+/// Holds a and b of a vertex, raised.
 struct SubpathDensities {
     double a = 0.0;
     double b = 0.0;
-    double merged_before = 0.0;  ///< added to b if the vertex is left by a delta: the one before merges then
-    double merges = 0.0;         ///< eta, raised, where subpaths merge between deltas
 
     /// Returns the sum over the strategies with fewer vertices on this side, but for the raised density per area with
     /// which the other side makes this vertex. `turning_back` is q.
@@ -84,13 +83,11 @@ struct SubpathDensities {
 
 /// Holds the densities of a subpath on its way from a vertex towards the next one.
 struct DepartingDensities {
-    double d = 0.0;              ///< D_i, without `merges`
-    double merges = 0.0;         ///< SubpathDensities::merges of the vertex
+    double d = 0.0;              ///< D_i
     double pdf_forward = 1.0;    ///< 1/sr, of the direction; 1/m², of the point across it, from infinity
     double cosine = 1.0;         ///< |cos theta_i|
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
     bool is_from_infinity = false;
-    bool is_by_delta = false;  ///< the vertex was left by a delta
 
     /// Returns the densities at a vertex `squared_distance` m² away, >= 0, where the direction has the cosine
     /// `cos_arriving`. The distance cancels in b, and divides nothing in a: media scatter light again after no distance
@@ -102,9 +99,7 @@ struct DepartingDensities {
         const double inverse = 1.0 / raised(across);
         const double back = is_from_infinity ? 1.0 : raised(cosine);
         const double area = is_from_infinity ? 1.0 : raised(squared_distance);
-        return {.a = arrives && is_connectible ? area * inverse : 0.0,
-                .b = arrives ? back * d * inverse : 0.0,
-                .merged_before = arrives ? back * merges * inverse : 0.0};
+        return {.a = arrives && is_connectible ? area * inverse : 0.0, .b = arrives ? back * d * inverse : 0.0};
     }
 };
 
@@ -157,32 +152,33 @@ struct DepartingDensities {
 [[nodiscard]] inline DepartingDensities depart(const Raised& raised, const SubpathDensities& arrived, float pdf,
                                                float reverse_pdf, float cosine) {
     return {.d = arrived.fewer(raised, static_cast<double>(reverse_pdf)),
-            .merges = arrived.merges,
             .pdf_forward = static_cast<double>(pdf),
             .cosine = static_cast<double>(cosine)};
 }
 
-/// Adds to `arrived`, at a vertex at `position` on a surface that scatters by more than deltas, what a merge there has
-/// for the vertices after it. Returns true if subpaths that come as `departing` says merge there.
-[[nodiscard]] inline bool merge_at(const MisContext& mis, const DepartingDensities& departing, const Vec3f& position,
+/// Returns true if vertex `index` of a subpath from `end`, which has come by deltas alone if `only_deltas`, is what the
+/// eye sees in mirrors or through smooth refractions.
+[[nodiscard]] inline bool is_seen_by_deltas(SubpathEnd end, bool only_deltas, int index) {
+    return end == SubpathEnd::AtEye && only_deltas && index > kDirectlySeen;
+}
+
+/// Adds to `arrived` what merging at a vertex at `position` has for the weights; the vertex lies on a surface that
+/// scatters by more than deltas. Returns true if subpaths from `end` merge there.
+[[nodiscard]] inline bool merge_at(const MisContext& mis, SubpathEnd end, bool is_seen, const Vec3f& position,
                                    SubpathDensities& arrived) {
-    if (!mis.merging.merges() || (mis.merging.at == MergeAt::BetweenDeltas && !departing.is_by_delta)) return false;
-    const double expected = mis.raised(mis.merging.expected(position));
-    // Everywhere, D_i is a sum of three terms that needs to know nothing of the next vertex.
-    if (mis.merging.at == MergeAt::Everywhere)
-        arrived.a += expected;
-    else
-        arrived.merges = expected;
+    if (!mis.merging.merges()) return false;
+    // Where a light subpath goes on from such a vertex, by a delta, no vertex follows that could be connected.
+    if (mis.merging.at == MergeAt::SeenByDeltas && !is_seen) return end == SubpathEnd::AtLight;
+    arrived.a += mis.raised(mis.merging.expected(position));
     return true;
 }
 
 /// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.
 [[nodiscard]] inline DepartingDensities depart_by_delta(const Raised& raised, const SubpathDensities& arrived,
                                                         float reverse_ratio, float cosine) {
-    return {.d = (arrived.b + arrived.merged_before) * raised(static_cast<double>(reverse_ratio)),
+    return {.d = arrived.b * raised(static_cast<double>(reverse_ratio)),
             .cosine = static_cast<double>(cosine),
-            .is_connectible = false,
-            .is_by_delta = true};
+            .is_connectible = false};
 }
 
 }  // namespace etendue

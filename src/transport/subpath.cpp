@@ -64,7 +64,8 @@ bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Ver
     if (ends_here && !is_pane) return false;
     subpath.is_dispersed = subpath.is_dispersed || vertex.chooses_wavelength;
     if (vertex.has_non_delta() && !ends_here) {
-        const bool merges = merge_at(sample.mis, subpath.departing, vertex.position, densities);
+        const bool is_seen = is_seen_by_deltas(subpath.end, subpath.only_deltas, subpath.index);
+        const bool merges = merge_at(sample.mis, subpath.end, is_seen, vertex.position, densities);
         vertices.push_back(make_vertex(subpath, vertex, densities, subpath.edges + 1));
         vertices.back().merges = merges;
     }

@@ -17,7 +17,7 @@ struct OracleRun {
     std::uint32_t light_samples = 1;
     Heuristic heuristic = Heuristic::Balance;
     SampleSequence sequence = SampleSequence::Sobol;
-    MergeAt merge = MergeAt::BetweenDeltas;  ///< of vcm
+    MergeAt merge = MergeAt::SeenByDeltas;  ///< of vcm
     int width = 24;                          ///< pixels
     int height = 24;
     std::uint32_t samples = 8;  ///< of each pixel

@@ -15,7 +15,6 @@ class ArrivalColumns {
     /// Sets what DepartingDensities::arrive takes in `lane`; `departing` is not from infinity.
     void set(std::size_t lane, const DepartingDensities& departing, double squared_distance, double cos_arriving) {
         d_[lane] = departing.d;
-        merges_[lane] = departing.merges;
         pdf_forward_[lane] = departing.pdf_forward;
         cosine_[lane] = departing.cosine;
         is_connectible_[lane] = departing.is_connectible ? 1.0 : 0.0;
@@ -25,13 +24,13 @@ class ArrivalColumns {
     /// Computes the densities of arrival in lanes [0, count), whether or not these were set.
     void arrive(std::size_t count, const Raised& raised);
     [[nodiscard]] SubpathDensities operator[](std::size_t lane) const {
-        return {.a = a_[lane], .b = b_[lane], .merged_before = merged_before_[lane]};
+        return {.a = a_[lane], .b = b_[lane]};
     }
 
   private:
     using Doubles = std::array<double, kBlockLanes>;
-    Doubles d_{}, merges_{}, pdf_forward_{}, cosine_{}, is_connectible_{}, squared_distance_{}, cos_arriving_{};
-    Doubles a_{}, b_{}, merged_before_{};
+    Doubles d_{}, pdf_forward_{}, cosine_{}, is_connectible_{}, squared_distance_{}, cos_arriving_{};
+    Doubles a_{}, b_{};
 };
 
 }  // namespace etendue

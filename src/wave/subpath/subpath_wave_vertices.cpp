@@ -55,7 +55,8 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
         vertex.clearance = lanes_.clearance[path.lane];
     }
     if (vertex.is_connectible && !path.ends_here) {
-        vertex.merges = merge_at(job.mis, state.departing, vertex.position, path.arrived);
+        const bool is_seen = is_seen_by_deltas(end_, state.only_deltas, state.index);
+        vertex.merges = merge_at(job.mis, end_, is_seen, vertex.position, path.arrived);
         vertex.densities = path.arrived;
     }
     if (world.traits().has_bodies) {

@@ -111,12 +111,13 @@ class GivenPath {
             departing.is_connectible = departing.is_connectible && is_direct(i);
             vertex.densities = i == 0 ? arrive_from_light(mis_, emission, departing, vertex.position, cosine)
                                       : departing.arrive(mis_.raised, squared_distance(i - 1), cosine);
-            light_.merges[i] = merges(i, departing, vertex);
+            light_.merges[i] = merges(SubpathEnd::AtLight, i, false, vertex);
             scatter_along(light_, i, vertex, to_eye(i), TransportMode::Importance);
         }
     }
     void walk_from_eye() {
         resize(eye_);
+        bool only_deltas = true;
         for (std::size_t i = last() + 1; i-- > 0;) {
             WalkedVertex vertex = seen_from(i, to_eye(i));
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
@@ -124,15 +125,16 @@ class GivenPath {
             departing.is_connectible = departing.is_connectible && is_direct(i + 1);
             vertex.densities = i == last() ? arrive_from_lens(mis_, departing, path_.camera, cosine)
                                            : departing.arrive(mis_.raised, squared_distance(i), cosine);
-            eye_.merges[i] = merges(i, departing, vertex);
+            eye_.merges[i] = merges(SubpathEnd::AtEye, i, i < last() && only_deltas, vertex);
+            only_deltas = only_deltas && is_delta(i);
             scatter_along(eye_, i, vertex, to_light(i), TransportMode::Radiance);
         }
     }
 
     /// Has `vertex`, which is vertex `i`, merge if it may.
-    [[nodiscard]] bool merges(std::size_t i, const DepartingDensities& departing, WalkedVertex& vertex) const {
+    [[nodiscard]] bool merges(SubpathEnd end, std::size_t i, bool is_seen, WalkedVertex& vertex) const {
         return scatters_freely(i) && vertex.is_on_surface() &&
-               merge_at(mis_, departing, vertex.position, vertex.densities);
+               merge_at(mis_, end, is_seen, vertex.position, vertex.densities);
     }
 
     [[nodiscard]] EmittedRay emitted() const { return emitted_ray(mis_.world, path_); }

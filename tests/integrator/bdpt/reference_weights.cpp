@@ -99,8 +99,8 @@ class Path {
         switch (mis_.merging.at) {
             case MergeAt::Nothing:
                 return false;
-            case MergeAt::BetweenDeltas:
-                return is_delta(i - 1) && is_delta(i + 1);
+            case MergeAt::SeenByDeltas:
+                return i < inner_.size() && is_seen_by_deltas(i);
             case MergeAt::Everywhere:
                 return true;
         }
@@ -112,6 +112,12 @@ class Path {
     }
 
   private:
+    /// True if nothing but deltas lie between vertex i and the lens.
+    [[nodiscard]] bool is_seen_by_deltas(std::size_t i) const {
+        for (std::size_t j = i + 1; j <= inner_.size(); ++j)
+            if (!is_delta(j)) return false;
+        return true;
+    }
     [[nodiscard]] bool is_delta(std::size_t i) const {
         return i >= 1 && i <= inner_.size() && inner_[i - 1]->is_left_by_delta && !is_end_of_subpath(i);
     }

@@ -53,7 +53,7 @@ using MergingRoom = std::tuple<const char*, MergeAt>;
 
 std::string name_of_merging_room(const testing::TestParamInfo<MergingRoom>& info) {
     const auto& [name, merge] = info.param;
-    return name + std::string(merge == MergeAt::Everywhere ? "Everywhere" : "BetweenDeltas");
+    return name + std::string(merge == MergeAt::Everywhere ? "Everywhere" : "SeenByDeltas");
 }
 
 class MergingWeights : public testing::TestWithParam<MergingRoom> {};
@@ -70,8 +70,8 @@ TEST_P(MergingWeights, RecursionSaysWhatTheDefinitionSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, MergingWeights,
-                         testing::Values(MergingRoom{"SmoothGlass", MergeAt::BetweenDeltas},
-                                         MergingRoom{"Mirror", MergeAt::BetweenDeltas},
+                         testing::Values(MergingRoom{"SmoothGlass", MergeAt::SeenByDeltas},
+                                         MergingRoom{"Mirror", MergeAt::SeenByDeltas},
                                          MergingRoom{"SmoothGlass", MergeAt::Everywhere},
                                          MergingRoom{"LampPlastic", MergeAt::Everywhere}),
                          name_of_merging_room);

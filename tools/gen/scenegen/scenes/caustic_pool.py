@@ -25,6 +25,9 @@ OVERLAP = 0.02
 
 LAMP_CENTER, LAMP_RADIUS, LAMP_RADIANCE, LAMP_FREQUENCY = (-0.9, 3.4, -1.1), 0.07, (4200.0, 3800.0, 3100.0), 8
 
+# Name, position, what it looks at, and vertical angle in degrees of each camera.
+VIEWS = (("above", (0.35, 3.1, 3.5), (0.0, -0.45, -0.05), 36.0), ("along", (1.55, 0.32, 1.75), (-0.35, -0.22, -0.75), 42.0))
+
 
 def build():
     scene = GeneratedScene()
@@ -44,9 +47,8 @@ def build():
     scene.add_object("ball", sphere(0.24, 24), scene.add_diffuse("ball", (0.75, 0.13, 0.06)), closed=True,
                      translation=(0.75, LEVEL + 0.12, -0.45))
     scene.add_lamp("lamp", sphere(LAMP_RADIUS, LAMP_FREQUENCY), LAMP_RADIANCE, closed=True, translation=LAMP_CENTER)
-    position = (0.35, 3.1, 3.5)
-    gltf.add_camera("camera", position, look_at(position, (0.0, -0.45, -0.05)), yfov=math.radians(36.0),
-                    aspect_ratio=16.0 / 9.0)
+    for name, position, target, degrees in VIEWS:
+        gltf.add_camera(name, position, look_at(position, target), yfov=math.radians(degrees), aspect_ratio=16.0 / 9.0)
     return scene
 
 
