@@ -124,9 +124,9 @@ struct RowFindings {
 SampleWork take_samples(const World& world, const IntegratorSettings& settings, TileJob job, std::uint32_t index,
                         const ThreadPool& threads, PilotFilm& film) {
     job.first_sample = index;
-    job.merging = make_merging(
-        world, job.full_width, job.full_height, static_cast<double>(job.rect.area()), index,
-        {.at = MergeAt::SeenByDeltas, .radius = settings.merging.radius, .alpha = settings.merging.alpha});
+    job.merging =
+        make_merging(world, job.full_width, job.full_height, static_cast<double>(job.rect.area()), index,
+                     {.at = MergeAt::SeenByDeltas, .radius = settings.merging.radius, .alpha = settings.merging.alpha});
     std::vector<CameraSample> samples(job.rect.area());
     std::vector<Ray> rays(samples.size());
     generate_camera_rays(world, job, 0, samples, rays);

@@ -18,7 +18,7 @@ struct OracleRun {
     Heuristic heuristic = Heuristic::Balance;
     SampleSequence sequence = SampleSequence::Sobol;
     MergeAt merge = MergeAt::SeenByDeltas;  ///< of vcm
-    int width = 24;                          ///< pixels
+    int width = 24;                         ///< pixels
     int height = 24;
     std::uint32_t samples = 8;  ///< of each pixel
 };

@@ -23,9 +23,7 @@ class ArrivalColumns {
     }
     /// Computes the densities of arrival in lanes [0, count), whether or not these were set.
     void arrive(std::size_t count, const Raised& raised);
-    [[nodiscard]] SubpathDensities operator[](std::size_t lane) const {
-        return {.a = a_[lane], .b = b_[lane]};
-    }
+    [[nodiscard]] SubpathDensities operator[](std::size_t lane) const { return {.a = a_[lane], .b = b_[lane]}; }
 
   private:
     using Doubles = std::array<double, kBlockLanes>;
