@@ -52,8 +52,10 @@ OptionHelp describe_option(const CLI::Option& option) {
           std::pair("TEXT:FILE", "FILE"), std::pair("TEXT:DIR", "DIR")})
         if (help.terms.starts_with(from)) help.terms.replace(0, std::string_view(from).size(), to);
     if (const std::string value = option.get_default_str(); !value.empty()) {
-        const std::string shown = "=" + value;
-        if (const std::size_t at = help.terms.find(shown); at != std::string::npos) help.terms.erase(at, shown.size());
+        // As CLI11 2.3 shows it, and 2.4.
+        for (const std::string& shown : {"=" + value, " [" + value + "]"})
+            if (const std::size_t at = help.terms.rfind(shown); at != std::string::npos)
+                help.terms.erase(at, shown.size());
         help.description += fmt::format(" (default: {})", value);
     }
     help.choices = choices_of(option.get_type_name());

@@ -67,7 +67,7 @@ TEST_F(CommandMistakes, SayWhatIsMissing) {
     expect_usage_error({"render"}, {"SCENE is missing: Scene directory"});
     expect_usage_error({"view", "x.exr"}, {"--output is missing: the PNG to write, such as -o x.view.png"});
     expect_usage_error({"merge", "x.exr", "-o", "y.exr"}, {"'x.exr' is an image, and an image is no part", ".partial"});
-    expect_usage_error({"merge", "gone.partial", "-o", "y.exr"}, {"parts: there is no file 'gone.partial'"});
+    expect_usage_error({"merge", "gone.partial", "-o", "y.exr"}, {"PARTS: there is no file 'gone.partial'"});
     expect_usage_error({"batch", "shots/*", "-o", "out"},
                        {"there is no directory 'shots/*'", "nothing that the pattern"});
     expect_usage_error({"batch", "gone.glb", "-o", "out"}, {"there is no file 'gone.glb'"});
