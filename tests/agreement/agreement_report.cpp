@@ -89,8 +89,20 @@ std::string cell(const Row& row, const std::pair<std::string, std::string>& name
     return letters.empty() ? text : fmt::format("{} ({})", text, letters);
 }
 
+/// True if a room of the table has a comparison of the two.
+bool is_compared(const Table& table, const std::pair<std::string, std::string>& names) {
+    return std::ranges::any_of(table.rows, [&](const auto& row) {
+        return std::ranges::any_of(row.second, [&](const RoomComparison* room) {
+            return std::ranges::any_of(room->pairs, [&](const PairComparison& pair) {
+                return pair.a == names.first && pair.b == names.second;
+            });
+        });
+    });
+}
+
 std::string markdown(const Table& table) {
-    const auto pairs = integrator_pairs();
+    auto pairs = integrator_pairs();
+    std::erase_if(pairs, [&](const auto& pair) { return !is_compared(table, pair); });
     std::string text = fmt::format("\n### {}\n\n| {} |", table.title, table.what);
     std::string rule = "|---|";
     for (const auto& [a, b] : pairs) {

@@ -8,7 +8,7 @@ namespace etendue::test {
 
 namespace {
 
-constexpr std::string_view kIntegrators[] = {"naive", "path", "light", "bdpt"};
+constexpr std::string_view kIntegrators[] = {"naive", "path", "light", "bdpt", "vcm"};
 
 constexpr RoomLight kLights[] = {RoomLight::Area,        RoomLight::Point,       RoomLight::Spot,
                                  RoomLight::Directional, RoomLight::Environment, RoomLight::Mesh};
@@ -132,7 +132,8 @@ std::string_view reason_of(Exclusion exclusion) {
          "the environment seen directly starts light paths, and no camera can be connected to what is infinitely far "
          "away",
          "light scatters right before the pinhole or the lens: the variance of connections to it is infinite",
-         "light scatters right before a light of no extent: the variance of connections to it is infinite"},
+         "light scatters right before a light of no extent: the variance of connections to it is infinite",
+         "the eye sees nothing in or through a smooth surface: nothing merges, and `vcm` is `bdpt`"},
         exclusion);
 }
 
@@ -142,6 +143,7 @@ Exclusion exclusion_of(const RoomTraits& room, std::string_view integrator) {
     if (integrator == "path" && room.medium == RoomMedium::Scattering && room.place != MediumPlace::CameraIn &&
         room.has_delta_light())
         return Exclusion::InfiniteVarianceAtLight;
+    if (integrator == "vcm" && !(room.has_smooth_body() && room.body_is_seen())) return Exclusion::NothingMerges;
     if (integrator == "light") {
         if (room.has_smooth_body() && room.body_is_seen()) return Exclusion::SeenBySmoothSurface;
         if (room.light == RoomLight::VisibleEnvironment) return Exclusion::SeenEnvironment;

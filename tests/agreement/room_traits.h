@@ -50,7 +50,7 @@ struct RoomTraits {
 /// The integrators of the matrix, in the order in which pairs of them are named.
 [[nodiscard]] std::span<const std::string_view> matrix_integrators();
 
-/// Why an integrator does not find all light of a room, or not in finite time.
+/// Why an integrator does not find all light of a room, or not in finite time, or is another one there.
 enum class Exclusion {
     None,
     LightCannotBeHit,
@@ -58,7 +58,8 @@ enum class Exclusion {
     SeenBySmoothSurface,
     SeenEnvironment,
     InfiniteVarianceAtCamera,
-    InfiniteVarianceAtLight
+    InfiniteVarianceAtLight,
+    NothingMerges
 };
 [[nodiscard]] std::string_view reason_of(Exclusion exclusion);
 

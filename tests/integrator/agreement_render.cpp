@@ -20,8 +20,11 @@ RenderOptions render_options(const AgreementCase& agreement) {
     return options;
 }
 
-ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,
-                       const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part) {
+namespace {
+
+/// Renders `part` of the room once with each seed.
+std::vector<ImageF> render_parts(const World& world, const Integrator& integrator, const AgreementCase& agreement,
+                                 const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part) {
     const std::atomic<bool> stop{false};
     RenderOptions options = render_options(agreement);
     options.filter = PixelFilter(renders.filter);
@@ -40,6 +43,14 @@ ImageEstimate estimate(const World& world, const Integrator& integrator, const A
             }
         images.push_back(std::move(image));
     }
+    return images;
+}
+
+}  // namespace
+
+ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,
+                       const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part) {
+    const std::vector<ImageF> images = render_parts(world, integrator, agreement, renders, threads, part);
     ImageEstimate result = estimate_image(images);
     if (renders.filter != FilterShape::Box) (void)widen_for_correlation(result, images, kAgreementBlock);
     return result;
@@ -47,8 +58,21 @@ ImageEstimate estimate(const World& world, const Integrator& integrator, const A
 
 ImageEstimate estimate(const World& world, const std::string& integrator, const AgreementCase& agreement,
                        const AgreementRenders& renders, const ThreadPool& threads) {
-    return estimate(world, *make_integrator(integrator, {.lengths = agreement.lengths}), agreement, renders, threads,
-                    agreement.window);
+    const auto images = [&](const MergeSettings& merging) {
+        return render_parts(world, *make_integrator(integrator, {.lengths = agreement.lengths, .merging = merging}),
+                            agreement, renders, threads, agreement.window);
+    };
+    const MergeSettings merging;
+    std::vector<ImageF> result = images(merging);
+    if (integrator == "vcm") {
+        MergeSettings half = merging;
+        half.radius *= 0.5;
+        const std::vector<ImageF> nearer = images(half);
+        for (std::size_t i = 0; i < result.size(); ++i)
+            for (std::size_t p = 0; p < result[i].pixels.size(); ++p)
+                result[i].pixels[p] = (4.0f * nearer[i].pixels[p] - result[i].pixels[p]) / 3.0f;
+    }
+    return estimate_image(result);
 }
 
 double mean_error(const ImageEstimate& image) {

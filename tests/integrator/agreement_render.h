@@ -29,6 +29,8 @@ inline constexpr int kAgreementBlock = 8;
 /// Of the pixels of `part`, which lies within the window that is rendered.
 [[nodiscard]] ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,
                                      const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part);
+/// Estimates the whole window. Of `vcm` that is Richardson's extrapolation to a radius of zero, (4 I(r / 2) - I(r)) /
+/// 3: the bias of merges is of the second order in r.
 [[nodiscard]] ImageEstimate estimate(const World& world, const std::string& integrator, const AgreementCase& agreement,
                                      const AgreementRenders& renders, const ThreadPool& threads);
 

@@ -89,8 +89,8 @@ class InstallTest(unittest.TestCase):
 
     def test_the_example_renders_what_the_program_renders(self):
         build = self.folder / "example"
-        run("cmake", "-S", self.prefix / "share/doc/etendue/examples", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
-            f"-DCMAKE_CXX_COMPILER={CXX}")
+        run("cmake", "-G", "Ninja", "-S", self.prefix / "share/doc/etendue/examples", "-B", build,
+            f"-DCMAKE_PREFIX_PATH={self.prefix}", f"-DCMAKE_CXX_COMPILER={CXX}")
         run("cmake", "--build", build)
         scene = self.folder / "box"
         shutil.copytree(self.prefix / "share/etendue/scenes/cornell-box", scene)
