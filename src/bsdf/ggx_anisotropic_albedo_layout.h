@@ -2,19 +2,16 @@
 // that computes the tables and the code that reads them.
 //
 // A direction sees slopes of width `along` towards it and `across` beside it, correlated; `spread` is what is left of
-// either once the other is known, alpha_x alpha_y / (along across). Seen so, directions along and across grooves are as
-// far apart as what they see, however narrow one alpha is. The albedo falls where cos theta comes near `along`, and
-// part of the cosine's coordinate follows that place, as in ggx_albedo_layout.h. Facets that tilt across bend the curve
-// elsewhere, interfaces of almost equal indices edge-on, and the critical index varies near normal incidence: the rest
-// of the coordinate is for those.
+// either once the other is known, alpha_x alpha_y / (along across): however narrow one alpha is, directions along and
+// across grooves are as far apart as what they see. The albedo falls where cos theta comes near `along`; part of the
+// cosine's coordinate follows that place, as in ggx_albedo_layout.h. The rest is for facets that tilt across and bend
+// the curve elsewhere, interfaces of almost equal indices edge-on, and the critical index near normal incidence.
 //
-// Indices are placed as ggx_albedo_indices.h says. Seen from inside, the albedo of grooves bends twice, as sharply as
-// the narrower alpha is small: at the index from which on upright facets, as steep as there are, reflect totally, and
-// where the last facets do, as they are met at less than the critical angle by nothing that runs so closely along the
-// grooves. Nearly level facets have one such place, the critical index itself. The coordinate puts both on nodes.
-//
-// Tabulated is the root of what is missing to one: it is small on nearly smooth surfaces, and lobes divide by its
-// average.
+// Indices are placed as ggx_albedo_indices.h says. From inside, the albedo of grooves bends twice, as sharply as the
+// narrower alpha is small, both times on a node: at the index from which on upright facets, as steep as there are,
+// reflect totally, and where the last facets do, met at less than the critical angle by nothing that runs so closely
+// along the grooves. Nearly level facets have one such place, the critical index itself. Tabulated is the root of what
+// is missing to one: it is small on nearly smooth surfaces, and lobes divide by its average.
 #pragma once
 
 #include "bsdf/ggx.h"

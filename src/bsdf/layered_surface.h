@@ -1,22 +1,17 @@
-// glTF's material with its upper layers: a clear coat over a sheen over the base.
-//
-// What a layer reflects is taken from what reaches those below. With t(w) the share that passes the layers along w, the
-// base's diffuse part is scaled by t(o) t(i) / t_avg, as a specular layer does to its diffuse base
-// (metallic_roughness.h), what a mirror reflects by min(t(o), t(i)): reciprocal, never more than arrives, and exact
-// where light leaves as it came. (KHR_materials_sheen asks for the latter; the former does not darken.) What a rough
-// base scatters around a direction lies between the two, by its alpha.
+// glTF's material with its upper layers: a clear coat over a sheen over the base. With the share t(w) that passes them
+// along w, t_avg on average, the base's diffuse part is scaled by t(o) t(i) / t_avg, what a mirror reflects by
+// min(t(o), t(i)); what a rough base scatters lies between, by `diffuseness` (docs/derivations.md, equation 21).
 //
 // A white surface in a white furnace reflects between 0.99 and 1 under one layer if its base is a dielectric, 0.975
-// under both; metals lose up to 3.6% under a coat, 4.6% under a white sheen, 7% under both, panes 5%. The layers lie on
-// the outside of refracting bodies and send what they keep of the light that leaves back inside, where a mirror in
-// place of the interface would: smooth glass loses nothing, rough glass (alpha near 1) up to 4% under a coat, 4.5%
-// under a white sheen, 6% under both, because the smaller of the shares kept at the two ends of such a path comes back.
-// On all other surfaces the layers lie on both sides.
+// under both; metals lose up to 3.6% under a coat, 4.6% under a white sheen, 7% under both, panes 5%. On refracting
+// bodies the layers lie outside, and send what they keep of leaving light back inside, where a mirror in place of the
+// interface would. Smooth glass loses nothing, rough glass (alpha near 1) up to 4% under a coat, 4.5% under a white
+// sheen, 6% under both: the smaller of the shares kept at the two ends of such a path comes back. All other surfaces
+// have the layers on both sides.
 //
 // A coat with a normal of its own over anything but a body is placed by itself (world/coated_scattering.h). White
 // dielectrics reflect between 0.95 and 1.01 under it if the normals are less than 90 degrees apart; metals lose up to
-// 20% where the two normals are far apart. Here, which is what albedos are estimated from, light below the base's
-// horizon is lost.
+// 20% where they are far apart. Here, which albedos are estimated from, light below the base's horizon is lost.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"

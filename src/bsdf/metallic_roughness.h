@@ -1,28 +1,17 @@
 // glTF 2.0 metallic-roughness with KHR_materials_ior, _specular, _iridescence, _anisotropy, _diffuse_roughness,
-// _diffuse_transmission and thin-walled _transmission.
+// _diffuse_transmission and thin-walled _transmission; docs/derivations.md, equations 19 and 20.
 //
 // material   = mix(dielectric, metal, metallic)                                  (glTF 2.0 specification, appendix B)
 // metal      = GGX with Schlick's Fresnel term, f0 = base colour
-// dielectric = GGX with f0 = min(1, ((ior - 1) / (ior + 1))² specular colour) specular factor, f90 = specular factor,
-//              over mix(mix(diffuse, diffuse transmission), transmission)
+// dielectric = GGX with f0 and f90 over mix(mix(diffuse, diffuse transmission), transmission), which receives
+//              (1 - E(o)) (1 - E(i)) / (1 - E_avg) with E, the specular layer's albedo in its most reflective channel
 //
-// What lies under a coloured layer receives what its most reflective channel lets through, so that it keeps its colour
-// (KHR_materials_specular); a coloured layer therefore absorbs a little.
-//
-// Three things go beyond the appendix, whose formulas lose or invent energy: the specular layer has its
-// multiple-scattering lobe; what lies under it receives what it lets through, (1 - E(o)) (1 - E(i)) / (1 - E_avg),
-// which is reciprocal and makes a white dielectric reflect exactly 1 (Ashikhmin and Shirley's coupling in Kelemen's
-// form, 2001); the transmitted lobe is GGX's reflection, mirrored to the other side, with 1 - F in place of F in the
-// single and in the multiple scattering: reciprocal, and with the reflected part exactly 1 for a white sheet. Under a
-// thin film E is an estimate (facet_fresnel.h): the brightest channel of a white surface reflects between 0.98
-// and 1.01.
-//
-// A rough diffuse part is EON (rough_diffuse.h), diffuse transmission the same on the other side. Under the specular
-// layer, which passes less light at grazing angles, a white one keeps between 0.97 and 1 of the light.
-//
-// Thin-walled: light leaves opposite to where a mirror would send it, without refraction, tinted once by the base
-// colour. With both alphas below kSmoothAlpha the specular and transmitted parts are deltas. Scatters for wo.z > 0
-// only.
+// So what lies under a coloured layer keeps its colour (KHR_materials_specular), and the layer absorbs a little. Under
+// a thin film E is an estimate (facet_fresnel.h): the brightest channel of a white surface reflects 0.98 to 1.01. A
+// rough diffuse part is EON (rough_diffuse.h), diffuse transmission the same on the other side; under the specular
+// layer, which passes less light at grazing angles, a white one keeps between 0.97 and 1. Thin-walled: light leaves
+// opposite to where a mirror would send it, without refraction, tinted once by the base colour. With both alphas below
+// kSmoothAlpha the specular and transmitted parts are deltas. Scatters for wo.z > 0 only.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"

@@ -1,5 +1,5 @@
-// What nodes of the light tree may bring to receivers, by the formula of light/light_tree.h, in lanes: many nodes for
-// one receiver, or one node for many.
+// What nodes of the light tree may bring to receivers (docs/derivations.md, equations 15 to 17), in lanes: many nodes
+// for one receiver, or one node for many.
 #pragma once
 
 #include "core/columns.h"

@@ -1,49 +1,17 @@
 // The choice of a light for a point: by power, distance and orientation, in a time that grows with the logarithm of
-// their number.
-//
-// Lights that are not at infinity are the leaves of a tree with 16 children a node. From its root on, one of a node's
-// children is chosen, each with a probability in proportion to what it may bring to the receiver,
+// their number. Lights not at infinity are the leaves of a tree; on the way down, a child is chosen in proportion to
 //
 //   importance = power / measure × max(cos theta', floor) × received
 //   theta' = max(0, theta - theta_o - theta_b),    only the floor if theta' > theta_e
 //
-// with theta between the axis of the node's normals and the direction from the middle of its box to the point, theta_o
-// the half angle of the cone around them, theta_b the angle that a sphere around the box is seen under, and theta_e how
-// far from a normal light leaves (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
-// Splitting", HPG 2018, equation 3; the bound on theta' is also that of Pharr, Jakob and Humphreys, "Physically Based
-// Rendering", 4th edition, section 12.6.3). Different from there: power goes over the measure of its cone, which makes
-// it an intensity, so that a spot, a point and a surface compare. What is received,
-//
-//   at a bare point      1 / D²
-//   by a matte surface   0.9 max(n·v, 0) / (d² + r² / 3)^(3/2) + 0.1 max(cos theta_i', floor) / D²
-//   by a glossy share    pi D_GGX(n·h; alpha') / (4 max(n·o, 0.1)) / D²,    alpha'² = alpha² + sin² theta_b / 4
-//
-// where D² is the product of the distances of the nearest and the farthest point of the node's box, which makes 1/D²
-// the mean over lights along a line through the point; the first is at least the root of a fiftieth of the diagonal's
-// square over the number of lights, as the nearest of many is near. (With the distance d of the middle instead, the
-// node among whose lamps a point lies would count too little, and that at every level.) v goes from the point to the
-// middle of the box, and r is half its diagonal: the mean of cos / d² over the box is a field like that of a mass, here
-// of a softened one, r²/3 being the mean square of how far lamps are from the middle. The bound by theta_i' =
-// max(0, theta_i - theta_b), of the receiver's cosine as of the lamps' above, is the rest, for what the mean leaves out
-// below the horizon. A lobe is as wide as the node is seen, h being half way between the directions to the middle and
-// of wo.
-//
-// The density is a function of the receiver alone, which bidirectional path tracing has to ask for from both ends:
-// there it is a bare point, since from the light's end nobody knows yet where the surface will be seen from.
-//
-// Lights at infinity are chosen beside the tree, in proportion to their irradiance against the importances of the
-// root's children, but with a probability within [1/10, 9/10]; between them, power decides. Of an environment only what
-// is brighter than its mean counts, as `sample_light_compensated` finds no more: one without any such part is never
-// chosen. Of the choices in the tree three in a hundred are uniform over the lights that have any power, of those at
-// infinity one in ten, as what counts may be hidden behind something.
-//
-// The tree is built from the top: lights are split where, of 12 bins along each axis, the cost is least (ibid.,
-// equation 2), below eight levels in halves, so that 64 bits hold the way to any light, four for each level. Sixteen
-// children and not two: what nodes between them would say is less certain than what the children do, and the children
-// are looked at together, as many as a register holds. Of the root, where every choice begins and which in scenes of
-// few lamps is all there is, it is the receivers of many choices that are looked at together, for one child after the
-// other, if they are more than the children. Memory: 1 KiB a node, which is usually some 100 bytes a light and at most
-// 540 where there are many, and 20 more. Built by one thread, so that every build of the same lights is the same.
+// with the half angle theta_o of the cone around normals and light leaving up to theta_e from one (Conty Estevez and
+// Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018); docs/derivations.md, equations
+// 15 to 18, has the rest. Lights are split where, of 12 bins along each axis, the cost is least (ibid., equation 2),
+// below eight levels in halves: 64 bits hold the way to any, four a level. Nodes between would say less certain things
+// than 16 children, which are looked at together, as many as a register holds. At the root, where every choice begins
+// and which is all there is with few lamps, receivers are looked at together, for one child after the other, if they
+// are more than the children. Memory: 1 KiB a node, usually some 100 bytes a light and at most 540 where there are
+// many, and 20 more. Built by one thread, so that every build of the same lights is the same.
 #pragma once
 
 #include "core/wide.h"

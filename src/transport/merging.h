@@ -1,34 +1,15 @@
 // Merging: where both subpaths arrive at nearly one point, a light subpath's photon takes the place of a connection.
 //
-// A vertex x_i merges if nothing but deltas, one at least, lies between it and the lens: if the eye sees it in mirrors
-// or through smooth refractions. No light subpath is connected to the lens from there. So connections find no path
-// whose light comes to x_i by deltas, too (S-D-S), and find one whose light comes by deltas to the vertex before
-// (S-D-D-S) by a single strategy, whose 1 / d² nothing tames.
-//
-// "Merge at x_i" finds a path with Q_i eta_i times the density of the strategy s = i + 1, where
-//
-//   eta_i = pi r(x_i, k)² N
-//
-// and N is the number of light subpaths (Georgiev, Křivánek, Davidovič and Slusallek, "Light Transport Simulation with
-// Vertex Connection and Merging", 2012, equation 36). In the recursion of mis.h that is one more term of D_i. It counts
-// for the eye subpath alone: where a light subpath goes on by deltas to the lens, nothing else is connected. The weight
-// of a merge is
+// A vertex x_i merges if nothing but deltas, one at least, lies between it and the lens. "Merge at x_i" finds a path
+// with Q_i eta_i times the density of the strategy s = i + 1, where eta_i = pi r(x_i)² N, with the radius r and N light
+// subpaths. Its weight is
 //
 //   1 / (1 + (a_L + b_L q_L) / eta + (a_E + b_E q_E) / eta)
 //
-// where a_E is without the term itself, and all sums are raised to the power of the heuristic. All photons of a kernel
-// share one eye subpath. Weights do not know that, and trust merges too much where such subpaths differ much within a
-// pixel: at all vertices that come after one that scatters (Grittmann, Georgiev and Slusallek, "Correlation-Aware
-// Multiple Importance Sampling for Bidirectional Rendering Algorithms", 2021). To merge there as well, as published, is
-// for comparison.
-//
-// The bias of a merge, light taken from as far as r away, goes to zero with the radius (Knaus and Zwicker, "Progressive
-// Photon Mapping: A Probabilistic Approach", 2011):
-//
-//   r(x, k) = c rho(x) (k + 1)^((alpha - 1) / 2)
-//
-// where rho is the width of a pixel at the distance of x from the camera and k the index of the sample. A radius
-// depends on nothing that other samples have found, so that parts of a render add up to the whole.
+// with a, b and q of mis.h at the photon (L) and at the eye's vertex (E), whose a_E is without eta itself (Georgiev,
+// Křivánek, Davidovič and Slusallek, "Light Transport Simulation with Vertex Connection and Merging", 2012). The bias
+// goes to zero with r, which shrinks from sample to sample (Knaus and Zwicker, "Progressive Photon Mapping: A
+// Probabilistic Approach", 2011). docs/derivations.md, equations 11 to 14, has the rest.
 #pragma once
 
 #include "core/rgb.h"

@@ -1,53 +1,16 @@
 // The weights of bidirectional path tracing, in a constant number of steps per vertex and connection.
 //
-// A path x_0 ... x_k (x_0 on the light, x_k on the lens) can be made by every strategy (s, t) with s + t = k + 1: s
-// vertices from the light, t from the eye, the edge between x_{s-1} and x_s being the connection. With P_i the density
-// per area with which a subpath from the light makes x_i from x_{i-1}, and Q_i that with which one from the eye makes
-// it from x_{i+1}, strategies compare as
+// A subpath keeps two numbers, a and b, of its last vertex x_i. The ratios of all strategies with fewer vertices on its
+// side to the one that connects x_i (Veach 1997, equation 10.9) sum up to Q_i D_i, where
 //
-//   p_{s'} / p_s = prod_{i = s'}^{s-1} Q_i / P_i        (s' < s)
-//
-// wherever x_{s'-1} and x_{s'} can be connected (Veach 1997, equation 10.9), and the weight of s is one over the sum of
-// all those ratios, each raised to the power of the heuristic. That sum over s' < s, once only Q_{s-1} and Q_{s-2} are
-// still unknown, because they depend on where the path goes on, is
-//
-//   Q_{s-1} (a + b q)     with Q_{s-2} = q |cos theta_{s-2}| / |x_{s-2} - x_{s-1}|²
-//
-// where q is the density, per solid angle, of turning back at x_{s-1}. A subpath keeps a and b of its last vertex; with
-// D_i = a_i + b_i q_i the next vertex has
-//
+//   D_i = a_i + b_i q_i
 //   a_{i+1} = 1 / P_{i+1}                                     if x_i and x_{i+1} can be connected, otherwise 0
 //   b_{i+1} = |cos theta_i| / |x_i - x_{i+1}|² D_i / P_{i+1}
 //
-// (the recursion of Georgiev, "Implementing Vertex Connection and Merging", 2012, where they are called dVCM and dVC).
-// By symmetry the same serves the subpath from the eye. Where it starts:
-//
-//   light: D_0 = 1 / P_0, or 0 if nothing can hit the light. For s = 1 the light is sampled anew, for x_1: with
-//     c' P_0 / c in place of P_0, where c is the density with which it was chosen to emit and c' that with which it is
-//     chosen for x_1: the probabilities of the choice (light/light_tree.h), of a mesh what triangles gain that face x_1
-//     (light/mesh_light.h), and of an environment the densities of the direction besides (light/environment_light.h).
-//     So a_1 is multiplied by c' / c, the sum that (1, t) compares itself with, P_1 (a + b q) of the eye's, by c / c',
-//     and where an eye subpath ends on the light, P_0 (a + b q) has c' P_0 / c with a, but P_0 with b. a_1 depends on
-//     x_0 and x_1 alone: at a light that reaches x_1 by a delta or through something hidden it is zero as ever.
-//     Where an eye subpath has no vertex between the lens and the light, and for s = 1 and t = 1, P_0 is that of
-//     emission: what is connected to the lens is where a light subpath begins.
-//   eye: D = 0, as no light hits the lens. For t = 1 the lens is sampled anew. Each pixel of the window has one camera
-//     sample and one light path that may fall anywhere: P_1, per area of the film, is multiplied by the film's pixels
-//     over the window's.
-//
-// Lights at infinity have a density per solid angle in place of P_0, and P_1 is that of a point on the disk across the
-// direction, times |cos theta_1|.
-//
-// At a delta D_i = b_i r_i: neither of its edges can be connected, and in r_i, the density of the way back over that of
-// this way, the deltas cancel; P_{i+1} then has a density of 1 per solid angle. r_i is the ratio of the two choices of
-// the event, times n² |cos| on the side of x_{i-1} over that on the side of x_{i+1} where it refracts, which is what
-// the densities of a rough interface tend to. (Probabilities of choosing the delta cancel where they are the same both
-// ways.)
-//
-// Left out of the densities of all strategies alike: Russian roulette, how far light gets in media, whether it passes
-// what is partly transparent, and which wavelength a dispersed path has. That keeps the sum of the weights at one, but
-// not the variance as low as it could be in dense media. Directions' densities are those of the lobes; cosines here
-// belong to the geometric normals, and are 1 in media.
+// P_i and Q_i are the densities per area with which this side and the other one make x_i, q_i the one per solid angle
+// of turning back there, and theta_i lies between the geometric normal and the edge to x_{i+1}. (Georgiev,
+// "Implementing Vertex Connection and Merging", 2012, calls a and b dVCM and dVC.) All factors are raised to the power
+// of the heuristic. docs/derivations.md, equations 1 to 10, has why, the ends of subpaths, deltas and what is left out.
 #pragma once
 
 #include "camera/camera.h"

@@ -1,24 +1,17 @@
-// Lamps that camera rays meet at once, estimated with what the samples of neighbouring pixels have met.
-//
-// A pixel's own samples are placed with its filter's density, so that one that falls far from it meets a lamp rarely
-// and brings all of its light: beside every lamp there would be pixels that are far too bright. What a camera ray meets
-// first is a function of where it falls on the film, though, and samples of the pixels beside it fall there often. So
-// sample i of pixel p is given the light E of what the i-th samples of p and its eight neighbours q have met, at x_q,
+// Lamps that camera rays meet at once, estimated with what the samples of neighbouring pixels have met: alone, a sample
+// far from its pixel meets a lamp rarely and brings all of its light, far too much in some pixels beside every lamp.
+// Sample i of pixel p is given the light E that the i-th samples of p and its eight neighbours q have met at x_q,
 //
 //   sum over q of f_p(x_q) E(x_q) / sum over q' of d_q'(x_q)
 //
-// where f is the filter and d the density with which samples are placed: multiple importance sampling with the balance
-// heuristic, one sample of each of nine densities (Veach 1997, equation 9.8). Neighbours may lie beside the image.
-//
-// It is a function of the seed, the pixel and the sample: i-th samples of pixels that the tile does not render are
-// traced again, as far as what they meet first. So crops, parts and adaptive passes see what the whole image would.
+// where f is the filter and d the density with which samples are placed (Veach 1997, equation 9.8; docs/derivations.md,
+// equation 22). Neighbours may lie beside the image. It is a function of the seed, the pixel and the sample: i-th
+// samples of pixels that the tile does not render are traced again, as far as what they meet first. So crops, parts and
+// adaptive passes see what the whole image would.
 //
 // Filters with negative parts keep to a pixel's own samples, as does a box that reaches no neighbour's: weights of both
-// signs divide a pixel's light, and what has no part in them would be noisier for it.
-//
-// Nine samples are noisier than one where the lamp fills all that the filter sees. So a pixel keeps to its own where
-// rays through the middles of all nine pixels meet emission of about the same brightness: a choice that knows nothing
-// of the samples, and leaves both estimates unbiased.
+// signs divide a pixel's light, and what has no part in them would be noisier for it. So does a pixel where rays
+// through the middles of all nine meet emission of about the same brightness.
 #pragma once
 
 #include "core/pixel_rect.h"

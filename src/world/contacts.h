@@ -1,22 +1,15 @@
-// Surfaces that lie within rounding of each other: glass that stands on a table, a drink in its glass, a lamp that is
-// flush with the ceiling.
+// Surfaces that lie within rounding of each other are met as one: glass that stands on a table, a drink in its glass, a
+// lamp that is flush with the ceiling (docs/derivations.md, equation 23). build_bvh() finds out where there are any,
+// since asking everywhere would take a third of a render's time. Rays that hit there ask for all surfaces in that place
+// when they arrive, since what they do depends on the bodies they are in, and meet the first of:
 //
-// A ray that leaves a surface starts off it by what rounding may have moved it, and so would pass what lies within that
-// distance, or meet it or not as rounding has it. Such surfaces are therefore met as one. build_bvh() finds out where
-// there are any; rays that hit there ask for all surfaces in that place, one of which is the surface that they
-// meet:
-//
-//   1. an emitter, on a side that emits,
+//   1. an emitter that stops light, on a side that emits,
 //   2. what stops light,
-//   3. the boundary of bodies: all that are left are left, and all that are entered are entered, which makes one
-//      boundary between what fills the space before and behind, as if every body were larger than modelled by nothing,
+//   3. the boundary of bodies: all that are left are left, and all that are entered are entered,
 //   4. thin sheets, where build_bvh() could not move them apart.
 //
-// Of several of one kind the first in the scene counts. Rays go on from beyond all of them, on either side. This asks
-// neither for the order in which rounding puts them nor for the direction that a path comes from.
-//
-// Where surfaces touch is found when compiling, since asking everywhere would take a third of a render's time. What a
-// ray does there is found when it arrives, since that depends on the bodies it is in.
+// Of several of one kind the first in the scene counts; a back that is culled comes last. Rays go on from beyond all of
+// them, on either side.
 #pragma once
 
 #include "core/bounds.h"

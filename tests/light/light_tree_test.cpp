@@ -95,7 +95,7 @@ std::vector<Light> row_of_lamps(std::size_t count) {
     return lights;
 }
 
-/// The formula of light/light_tree.h, with angles and in double.
+/// The formula of docs/derivations.md, equations 15 to 17, with angles and in double.
 double importance(const LightBounds& light, double power, const LightReceiver& receiver) {
     const Vec3d low(light.box.min);
     const Vec3d high(light.box.max);

@@ -276,7 +276,7 @@ class Comparisons(unittest.TestCase):
 
     def row(self, **seconds):
         comparison = types.SimpleNamespace(name="box", size=[8, 4], means=[[1.0] * 3, [1.01, 1.0, 1.0]], deviation=0.001,
-                                           apart=[0.1, 0.01], spp=64)
+                                           apart=[0.1, 0.01], spp=64, scene=tool.Scene((8, 4), "bdpt" in seconds))
         return tool.Row(comparison, {name: self.result(value) for name, value in seconds.items()})
 
     def test_a_time_that_is_lost_in_noise_is_a_dash(self):
@@ -284,7 +284,7 @@ class Comparisons(unittest.TestCase):
             cells = self.row(cycles=0.1, path=seconds, bdpt=seconds).path_row()
             self.assertEqual(cells[2:4], ["–", "–"])
             self.assertEqual(cells[4:6], ["–", "–"])
-            self.assertEqual(self.row(cycles=0.1, path=0.1, bdpt=seconds).bdpt_row()[1::2], ["–", "–"])
+            self.assertEqual(self.row(cycles=0.1, path=0.1, bdpt=seconds).caustic_row("bdpt")[1::2], ["–", "–"])
             self.assertEqual(self.row(cycles=seconds, path=0.1).path_row()[3], "–")
 
     def test_the_document_has_what_the_tables_have(self):
@@ -333,9 +333,10 @@ class Comparisons(unittest.TestCase):
         rows = [self.row(cycles=0.1, path=0.03), self.row(cycles=0.1, path=0.08), self.row(cycles=0.1, path=-1.0)]
         for row, name in zip(rows, ("box", "ring", "lost in noise")):
             row.comparison.name = name
-        path, bdpt = tool.aims_table(rows).splitlines()[2:]
+        path, bdpt, vcm = tool.aims_table(rows).splitlines()[2:]
         self.assertIn("| 0.800 | **not met** | 1 of 2 scenes; not ring 0.80 |", path)
         self.assertIn("not measured", bdpt)
+        self.assertIn("not measured", vcm)
         self.assertIn("| 0.300 | met | 1 of 1 scenes |", tool.aims_table(rows[:1]))
 
     def test_json_is_all_that_stands_on_stdout(self):

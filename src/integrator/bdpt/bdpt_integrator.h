@@ -5,7 +5,7 @@
 // and to the camera. On request eye vertices are connected to a few of the vertices of all light subpaths of the wave
 // instead (the light vertex cache of Davidovic et al., "Progressive Light Transport Simulation on the GPU: Survey and
 // Improvements", 2014): each stands for as many as an average light subpath has per connection, and weights do not
-// change, since the expected number of connections of each strategy does not. transport/mis.h derives the
+// change, since the expected number of connections of each strategy does not. docs/derivations.md derives the
 // weights. Textures are not filtered: subpaths from the light have no pixel to filter for, and both must see one
 // material.
 #pragma once
