@@ -118,8 +118,8 @@ inline constexpr std::array kTransportSettings{
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,
             .decides = Decides::Samples,
-            .help = "Where `vcm` merges: at what the eye sees in mirrors and through smooth refractions, which finds "
-                    "what no connection does (`sds`), at `all` vertices, or at `none`, which is `bdpt`",
+            .help = "Where `vcm` merges: at what the eye sees by mirrors or smooth refractions, light that has come by "
+                    "one, too (`sds`), at `all` vertices, or at `none`, which is `bdpt`",
             .page = "integrators.md#vcm",
             .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merging.at; })},
     Setting{.pointer = "/integrator/merge_radius",

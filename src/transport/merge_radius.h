@@ -47,8 +47,8 @@ struct Merging {
     /// Returns the raised density of all ways but a merge over that of the merge, where the recursion of both sides
     /// sums up to `ratio`.
     [[nodiscard]] double others(double ratio) const {
-        // The eye has counted the merge itself, and where all vertices merge so has the light.
-        return std::max(0.0, ratio - (at == MergeAt::Everywhere ? 2.0 : 1.0));
+        // Where all vertices merge, both sides have counted this one.
+        return at == MergeAt::Everywhere ? std::max(0.0, ratio - 2.0) : ratio;
     }
 };
 

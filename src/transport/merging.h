@@ -1,15 +1,15 @@
 // Merging: where both subpaths arrive at nearly one point, a light subpath's photon takes the place of a connection.
 //
-// A vertex x_i merges if nothing but deltas, one at least, lies between it and the lens. "Merge at x_i" finds a path
-// with Q_i eta_i times the density of the strategy s = i + 1, where eta_i = pi r(x_i)² N, with the radius r and N light
-// subpaths. Its weight is
+// A vertex x_i merges if nothing but deltas, one at least, lies between it and the lens, and the light has come by a
+// delta, too. "Merge at x_i" finds a path with Q_i eta_i times the density of the strategy s = i + 1, where
+// eta_i = pi r(x_i)² N, with the radius r and N light subpaths. Its weight is
 //
 //   1 / (1 + (a_L + b_L q_L) / eta + (a_E + b_E q_E) / eta)
 //
-// with a, b and q of mis.h at the photon (L) and at the eye's vertex (E), whose a_E is without eta itself (Georgiev,
-// Křivánek, Davidovič and Slusallek, "Light Transport Simulation with Vertex Connection and Merging", 2012). The bias
-// goes to zero with r, which shrinks from sample to sample (Knaus and Zwicker, "Progressive Photon Mapping: A
-// Probabilistic Approach", 2011). docs/derivations.md, equations 11 to 14, has the rest.
+// with a, b and q of mis.h at the photon (L) and at the eye's vertex (E) (Georgiev, Křivánek, Davidovič and Slusallek,
+// "Light Transport Simulation with Vertex Connection and Merging", 2012). The bias goes to zero with r, which shrinks
+// from sample to sample (Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011).
+// docs/derivations.md, equations 11 to 14, has the rest.
 #pragma once
 
 #include "core/rgb.h"

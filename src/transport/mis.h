@@ -34,19 +34,27 @@ struct MisContext {
     bool aims = false;  ///< light subpaths are aimed, see LightEmitter::sample
 };
 
-/// Holds a and b of a vertex, raised.
+/// Holds a and b of a vertex, raised; and two such numbers for a merge at what the eye sees by deltas, which counts as
+/// soon as the path goes on to a delta (transport/merging.h).
 struct SubpathDensities {
     double a = 0.0;
     double b = 0.0;
+    double merge_a = 0.0;  ///< eta, where the merge would be
+    double merge_b = 0.0;  ///< at vertices after it
 
     /// Returns the sum over the strategies with fewer vertices on this side, but for the raised density per area with
     /// which the other side makes this vertex. `turning_back` is q.
     [[nodiscard]] double fewer(const Raised& raised, double turning_back) const { return a + b * raised(turning_back); }
+    /// Returns what the merge adds to `fewer` on paths whose light has come by a delta.
+    [[nodiscard]] double merged(const Raised& raised, double turning_back) const {
+        return merge_a + merge_b * raised(turning_back);
+    }
 };
 
 /// Holds the densities of a subpath on its way from a vertex towards the next one.
 struct DepartingDensities {
     double d = 0.0;              ///< D_i
+    double merged = 0.0;         ///< SubpathDensities::merged of the vertex
     double pdf_forward = 1.0;    ///< 1/sr, of the direction; 1/m², of the point across it, from infinity
     double cosine = 1.0;         ///< |cos theta_i|
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
@@ -62,7 +70,9 @@ struct DepartingDensities {
         const double inverse = 1.0 / raised(across);
         const double back = is_from_infinity ? 1.0 : raised(cosine);
         const double area = is_from_infinity ? 1.0 : raised(squared_distance);
-        return {.a = arrives && is_connectible ? area * inverse : 0.0, .b = arrives ? back * d * inverse : 0.0};
+        return {.a = arrives && is_connectible ? area * inverse : 0.0,
+                .b = arrives ? back * d * inverse : 0.0,
+                .merge_b = arrives ? back * merged * inverse : 0.0};
     }
 };
 
@@ -115,6 +125,7 @@ struct DepartingDensities {
 [[nodiscard]] inline DepartingDensities depart(const Raised& raised, const SubpathDensities& arrived, float pdf,
                                                float reverse_pdf, float cosine) {
     return {.d = arrived.fewer(raised, static_cast<double>(reverse_pdf)),
+            .merged = arrived.merged(raised, static_cast<double>(reverse_pdf)),
             .pdf_forward = static_cast<double>(pdf),
             .cosine = static_cast<double>(cosine)};
 }
@@ -126,20 +137,29 @@ struct DepartingDensities {
 }
 
 /// Adds to `arrived` what merging at a vertex at `position` has for the weights; the vertex lies on a surface that
-/// scatters by more than deltas. Returns true if subpaths from `end` merge there.
-[[nodiscard]] inline bool merge_at(const MisContext& mis, SubpathEnd end, bool is_seen, const Vec3f& position,
-                                   SubpathDensities& arrived) {
-    if (!mis.merging.merges()) return false;
-    // Where a light subpath goes on from such a vertex, by a delta, no vertex follows that could be connected.
-    if (mis.merging.at == MergeAt::SeenByDeltas && !is_seen) return end == SubpathEnd::AtLight;
-    arrived.a += mis.raised(mis.merging.expected(position));
-    return true;
+/// scatters by more than deltas. Returns true if subpaths from `end` merge there: those from the eye where they see it
+/// by deltas (`is_seen`), those from a light if they have come by a delta (`is_after_delta`).
+[[nodiscard]] inline bool merge_at(const MisContext& mis, SubpathEnd end, bool is_seen, bool is_after_delta,
+                                   const Vec3f& position, SubpathDensities& arrived) {
+    const double expected = mis.merging.merges() ? mis.raised(mis.merging.expected(position)) : 0.0;
+    switch (mis.merging.at) {
+        case MergeAt::Nothing:
+            return false;
+        case MergeAt::SeenByDeltas:
+            if (end == SubpathEnd::AtLight) return is_after_delta;
+            if (is_seen) arrived.merge_a = expected;
+            return is_seen;
+        case MergeAt::Everywhere:
+            arrived.a += expected;
+            return true;
+    }
+    return false;
 }
 
 /// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.
 [[nodiscard]] inline DepartingDensities depart_by_delta(const Raised& raised, const SubpathDensities& arrived,
                                                         float reverse_ratio, float cosine) {
-    return {.d = arrived.b * raised(static_cast<double>(reverse_ratio)),
+    return {.d = (arrived.b + arrived.merge_b) * raised(static_cast<double>(reverse_ratio)),
             .cosine = static_cast<double>(cosine),
             .is_connectible = false};
 }

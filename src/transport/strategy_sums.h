@@ -141,9 +141,11 @@ template <typename AnyVertex>
                                                const Scattering::TwoWayValue& at_light) {
     const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);
     const double from_light = static_cast<double>(at_light.pdf_solid_angle * eye.cosine(w) / squared);
-    return sums_of_connection(
-        raised, from_eye, light.densities.fewer(raised, static_cast<double>(at_light.reverse_pdf_solid_angle)),
-        from_light, eye.densities.fewer(raised, static_cast<double>(at_eye.reverse_pdf_solid_angle)));
+    const auto eye_turning_back = static_cast<double>(at_eye.reverse_pdf_solid_angle);
+    const double merged = light.is_after_delta ? eye.densities.merged(raised, eye_turning_back) : 0.0;
+    return sums_of_connection(raised, from_eye,
+                              light.densities.fewer(raised, static_cast<double>(at_light.reverse_pdf_solid_angle)),
+                              from_light, eye.densities.fewer(raised, eye_turning_back) + merged);
 }
 
 }  // namespace etendue

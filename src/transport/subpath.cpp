@@ -26,7 +26,8 @@ SubpathDensities densities_at(const SubpathSample& sample, const Subpath& subpat
 
 SubpathVertex make_vertex(const Subpath& subpath, const Vertex& vertex, const SubpathDensities& densities,
                           int next_edges) {
-    return {vertex, subpath.throughput, densities, subpath.index, next_edges, subpath.is_dispersed};
+    return {
+        vertex, subpath.throughput, densities, subpath.index, next_edges, subpath.is_dispersed, subpath.is_after_delta};
 }
 
 /// Sends the subpath on from `vertex`, at which it has arrived with `densities`, along `scattered`.
@@ -41,6 +42,7 @@ void depart_from(const SubpathSample& sample, Subpath& subpath, const Vertex& ve
     if (subpath.end == SubpathEnd::AtEye && scattered.is_transmission)
         subpath.roulette_scale *= scattered.eta * scattered.eta;
     subpath.only_deltas = subpath.only_deltas && scattered.is_delta;
+    subpath.is_after_delta = subpath.is_after_delta || scattered.is_delta;
     subpath.is_direct = true;
     subpath.from = vertex.position;
     ++subpath.index;
@@ -65,7 +67,8 @@ bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Ver
     subpath.is_dispersed = subpath.is_dispersed || vertex.chooses_wavelength;
     if (vertex.has_non_delta() && !ends_here) {
         const bool is_seen = is_seen_by_deltas(subpath.end, subpath.only_deltas, subpath.index);
-        const bool merges = merge_at(sample.mis, subpath.end, is_seen, vertex.position, densities);
+        const bool merges =
+            merge_at(sample.mis, subpath.end, is_seen, subpath.is_after_delta, vertex.position, densities);
         vertices.push_back(make_vertex(subpath, vertex, densities, subpath.edges + 1));
         vertices.back().merges = merges;
     }

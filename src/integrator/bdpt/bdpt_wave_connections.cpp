@@ -293,6 +293,7 @@ void BdptWave::weigh_wide_between(const BdptJob& job) {
         between_lanes_.set_sample(lane, connection.eye->slot, false);
         between_lanes_.eye.set(lane, *connection.eye_end);
         between_lanes_.light.set(lane, *connection.light_end);
+        between_lanes_.merged.set(lane, connection.light->is_after_delta ? connection.eye->merged : 0.0f);
         between_lanes_.scale.set(lane, connection.scale);
     }
     between_lanes_.connect(count, job.rule());

@@ -5,7 +5,7 @@ namespace etendue {
 void BetweenLanes::connect(std::size_t count, const WeightRule& rule) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const BasicMatteEnd<Wide> end = eye.load(l, count);
-        store(l, end.origin, connect_ends(rule, end, light.load(l, count), scale.load(l)));
+        store(l, end.origin, connect_ends(rule, end, light.load(l, count), merged.load(l), scale.load(l)));
     }
 }
 

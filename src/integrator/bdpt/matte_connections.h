@@ -37,16 +37,17 @@ struct MatteConnection {
     ConnectingRay<T> ray;      ///< from the origin of the end on the eye's side, otherwise from that of the light's
 };
 
-/// Returns the connection of the ends of both subpaths, which stands for `scale` connections.
+/// Returns the connection of the ends of both subpaths, which stands for `scale` connections; `merged` is added to
+/// what is known of the eye's, see SubpathDensities::merged.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect_ends(const WeightRule& rule, const BasicMatteEnd<T>& eye,
-                                                     const BasicMatteEnd<T>& light, T scale) {
+                                                     const BasicMatteEnd<T>& light, T merged, T scale) {
     const Imath::Vec3<T> to_light = light.position - eye.position;
     const T squared = length_squared(to_light);
     const Imath::Vec3<T> w = to_light * (1.0f / sqrt(squared));
     const T inverse = 1.0f / squared;
     const T weight = rule.weight(eye.radiance_pdf(w) * light.cosine(-w) * inverse, light.fewer,
-                                 light.importance_pdf(-w) * eye.cosine(w) * inverse, eye.fewer);
+                                 light.importance_pdf(-w) * eye.cosine(w) * inverse, eye.fewer + merged);
     const BasicRgb<T> contribution = eye.radiance(w) * light.importance(-w) * (scale * weight * inverse);
     return {select(eye.cosine(w) > T(0.0f) && light.cosine(-w) > T(0.0f), contribution, BasicRgb<T>()), weight,
             ConnectingRay<T>(eye.origin, light.origin)};

@@ -38,6 +38,7 @@ struct PathVertex {
     int next_edges = 1;                  ///< edges of the path when a ray from here has hit; media add none
     bool is_dispersed = false;           ///< light of other wavelengths would not be here, or would not scatter so
     bool is_connectible = true;          ///< false if all it does are deltas
+    bool is_after_delta = false;         ///< the subpath has scattered by a delta
     bool merges = false;                 ///< subpaths from the other end may merge with this one here
     bool is_reached_directly = true;     ///< false if boundaries that other bodies hide lie before it
     bool is_seen_directly = true;        ///< nothing but deltas lie between the eye and it
@@ -93,6 +94,8 @@ struct ConnectibleVertex {
     int next_edges;
     bool is_seen_directly;
     bool is_dispersed;
+    bool is_after_delta;
+    float merged;  ///< SubpathDensities::merged, where there is a MatteEnd
 };
 
 }  // namespace etendue

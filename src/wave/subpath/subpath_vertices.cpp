@@ -37,13 +37,14 @@ PathVertex& SubpathVertices::store(SubpathState& state) {
     vertex.is_dispersed = state.is_dispersed;
     vertex.is_reached_directly = state.is_direct;
     vertex.is_seen_directly = state.only_deltas;
+    vertex.is_after_delta = state.is_after_delta;
     state.is_direct = true;
     return vertex;
 }
 
-void SubpathVertices::list_connectible(const SubpathState& state, int next_edges) {
+void SubpathVertices::list_connectible(const SubpathState& state, int next_edges, float merged) {
     connectible_.push_back({static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index, next_edges,
-                            state.only_deltas, state.is_dispersed});
+                            state.only_deltas, state.is_dispersed, state.is_after_delta, merged});
 }
 
 void SubpathVertices::place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex) {

@@ -50,7 +50,7 @@ class SubpathVertices {
     /// Stores the next vertex, with what `state` knows of it.
     PathVertex& store(SubpathState& state);
     /// Puts the vertex just stored among those that can be connected. `state` is the subpath's before it scatters.
-    void list_connectible(const SubpathState& state, int next_edges);
+    void list_connectible(const SubpathState& state, int next_edges, float merged = 0.0f);
     /// Puts `vertex` on the surface at `point`, with lobes for the index `relative_ior` as in Materials::bsdf.
     void place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex);
     /// Returns the vertex at a place in `all`.

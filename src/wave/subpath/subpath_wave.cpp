@@ -237,6 +237,7 @@ bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& pos
     state.from = position;
     state.lights_directly = state.only_deltas;
     state.only_deltas = state.only_deltas && is_delta;
+    state.is_after_delta = state.is_after_delta || is_delta;
     ++state.index;
     ++state.edges;
     return true;

@@ -56,14 +56,20 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
     }
     if (vertex.is_connectible && !path.ends_here) {
         const bool is_seen = is_seen_by_deltas(end_, state.only_deltas, state.index);
-        vertex.merges = merge_at(job.mis, end_, is_seen, vertex.position, path.arrived);
+        vertex.merges = merge_at(job.mis, end_, is_seen, state.is_after_delta, vertex.position, path.arrived);
         vertex.densities = path.arrived;
     }
     if (world.traits().has_bodies) {
         vertex.outside = world.media().within(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.media().within(crossing->inside) : vertex.outside;
     }
-    if (vertex.is_connectible && !path.ends_here) vertices_.list_connectible(state, state.edges + 1);
+    if (vertex.is_connectible && !path.ends_here) {
+        const double merged =
+            path.plain != nullptr
+                ? path.arrived.merged(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]))
+                : 0.0;
+        vertices_.list_connectible(state, state.edges + 1, static_cast<float>(merged));
+    }
     if (path.plain != nullptr) {
         if (make_matte_end(job, path, vertex))
             vertex.matte = path.plain;
@@ -82,7 +88,9 @@ bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
     // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
     const double fewer = path.arrived.fewer(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
-    if (!((fewer > kSmallest && fewer < kLargest) || fewer == 0.0)) return false;
+    const double merged = path.arrived.merged(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
+    for (const double density : {fewer, merged})
+        if (!((density > kSmallest && density < kLargest) || density == 0.0)) return false;
     ends_[path.lane] = path.vertex;
     lanes_.end_fewer.set(path.lane, static_cast<float>(fewer));
     return true;

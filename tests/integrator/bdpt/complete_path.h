@@ -25,6 +25,7 @@ struct WalkedVertex : Vertex {
     int index = 1;                     ///< vertices of its subpath before it
     bool is_reached_directly = true;   ///< false if boundaries that other bodies hide lie before it
     bool is_left_by_delta = false;     ///< the subpath went on by one
+    bool is_after_delta = false;       ///< the subpath has been scattered by a delta before
     float delta_reverse_ratio = 1.0f;  ///< BsdfSample::reverse_ratio of the delta by which it was left
     SubpathDensities densities{};
 

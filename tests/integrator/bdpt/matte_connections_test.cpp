@@ -97,11 +97,15 @@ TEST_P(MatteConnectionsIn, JoinSubpathsAsOneByOne) {
     BetweenLanes lanes;
     int connected = 0;
     for (int block = 0; block < 200; ++block) {
-        const auto eyes = make_ends(TransportMode::Radiance);
-        const auto lights = make_ends(TransportMode::Importance);
+        auto eyes = make_ends(TransportMode::Radiance);
+        auto lights = make_ends(TransportMode::Importance);
         for (std::size_t l = 0; l < kCount; ++l) {
+            const double merged = 0.1 * static_cast<double>(l % 5);
+            eyes[l].vertex.densities.merge_a = merged;
+            lights[l].vertex.is_after_delta = l % 2 == 0;
             lanes.eye.set(l, eyes[l].end);
             lanes.light.set(l, lights[l].end);
+            lanes.merged.set(l, lights[l].vertex.is_after_delta ? static_cast<float>(merged) : 0.0f);
             lanes.scale.set(l, 1.0f + static_cast<float>(l % 3));
         }
         lanes.connect(kCount, rule_);
@@ -219,7 +223,7 @@ TEST_P(MatteConnectionsIn, CountInFullIfUnweighted) {
     const auto eyes = make_ends(TransportMode::Radiance);
     const auto lights = make_ends(TransportMode::Importance);
     for (std::size_t l = 0; l < kCount; ++l)
-        EXPECT_EQ(connect_ends<float>(rule_, eyes[l].end, lights[l].end, 1.0f).weight, 1.0f);
+        EXPECT_EQ(connect_ends<float>(rule_, eyes[l].end, lights[l].end, 0.0f, 1.0f).weight, 1.0f);
 }
 
 // Vertices that lie in each other have densities beyond what floats hold.
@@ -236,7 +240,7 @@ TEST_P(MatteConnectionsIn, AreNumbersAtAnyDistance) {
         light.position = eye.normal * any_magnitude(30.0f);
         light.fewer = l % 2 == 0 ? 0.0f : any_magnitude(60.0f);
         eye.fewer = l % 3 == 0 ? 0.0f : any_magnitude(60.0f);
-        const float weight = connect_ends<float>(rule_, eye, light, 1.0f).weight;
+        const float weight = connect_ends<float>(rule_, eye, light, 0.0f, 1.0f).weight;
         EXPECT_GE(weight, 0.0f);
         EXPECT_LE(weight, 1.0f);
     }

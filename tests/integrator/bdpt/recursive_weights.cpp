@@ -103,6 +103,7 @@ class GivenPath {
 
     void walk_from_light() {
         resize(light_);
+        bool is_after_delta = false;
         for (std::size_t i = 0; i <= last(); ++i) {
             WalkedVertex vertex = seen_from(i, to_light(i));
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
@@ -111,7 +112,9 @@ class GivenPath {
             departing.is_connectible = departing.is_connectible && is_direct(i);
             vertex.densities = i == 0 ? arrive_from_light(mis_, emission, departing, vertex.position, cosine)
                                       : departing.arrive(mis_.raised, squared_distance(i - 1), cosine);
+            vertex.is_after_delta = is_after_delta;
             light_.merges[i] = merges(SubpathEnd::AtLight, i, false, vertex);
+            is_after_delta = is_after_delta || is_delta(i);
             scatter_along(light_, i, vertex, to_eye(i), TransportMode::Importance);
         }
     }
@@ -134,7 +137,7 @@ class GivenPath {
     /// Has `vertex`, which is vertex `i`, merge if it may.
     [[nodiscard]] bool merges(SubpathEnd end, std::size_t i, bool is_seen, WalkedVertex& vertex) const {
         return scatters_freely(i) && vertex.is_on_surface() &&
-               merge_at(mis_, end, is_seen, vertex.position, vertex.densities);
+               merge_at(mis_, end, is_seen, vertex.is_after_delta, vertex.position, vertex.densities);
     }
 
     [[nodiscard]] EmittedRay emitted() const { return emitted_ray(mis_.world, path_); }

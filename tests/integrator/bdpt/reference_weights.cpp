@@ -100,7 +100,7 @@ class Path {
             case MergeAt::Nothing:
                 return false;
             case MergeAt::SeenByDeltas:
-                return i < inner_.size() && is_seen_by_deltas(i);
+                return i < inner_.size() && is_seen_by_deltas(i) && is_lit_by_delta(i);
             case MergeAt::Everywhere:
                 return true;
         }
@@ -117,6 +117,12 @@ class Path {
         for (std::size_t j = i + 1; j <= inner_.size(); ++j)
             if (!is_delta(j)) return false;
         return true;
+    }
+    /// True if a delta lies between the light and vertex i.
+    [[nodiscard]] bool is_lit_by_delta(std::size_t i) const {
+        for (std::size_t j = 1; j < i; ++j)
+            if (is_delta(j)) return true;
+        return false;
     }
     [[nodiscard]] bool is_delta(std::size_t i) const {
         return i >= 1 && i <= inner_.size() && inner_[i - 1]->is_left_by_delta && !is_end_of_subpath(i);
