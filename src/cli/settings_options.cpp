@@ -193,7 +193,7 @@ void add_png_option(CLI::App& command, SettingsOverrides& overrides) {
 }
 
 void add_scene_argument(CLI::App& command, std::string& scene) {
-    // In capitals: newer versions of CLI11 take a word of an option's name for that option in a configuration file.
+    // In capitals: CLI11 2.4 refuses a word that has the name of an option, as --scene.
     command.add_option("SCENE", scene, "Scene directory, .gltf or .glb")->required();
 }
 

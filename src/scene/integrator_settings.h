@@ -46,7 +46,7 @@ inline constexpr std::string_view kMergesName = "merging";
 /// Says which vertices of both subpaths merge.
 enum class MergeAt : std::uint8_t {
     Nothing,       ///< none: bidirectional path tracing without merging
-    SeenByDeltas,  ///< what the eye sees by deltas alone, for light that has come by a delta, too
+    SeenByDeltas,  ///< those that the eye sees by deltas alone, for light that has come by a delta, too
     Everywhere,    ///< all that scatter by more than deltas: the algorithm as it was published
 };
 

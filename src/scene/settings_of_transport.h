@@ -118,8 +118,9 @@ inline constexpr std::array kTransportSettings{
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,
             .decides = Decides::Samples,
-            .help = "Where `vcm` merges: at what the eye sees by mirrors or smooth refractions, light that has come by "
-                    "one, too (`sds`), at `all` vertices, or at `none`, which is `bdpt`",
+            .help =
+                "Where `vcm` merges: at surfaces seen in a mirror or through smooth glass, for light that has passed "
+                "one, too (`sds`); at `all` vertices; or nowhere (`none`), which is `bdpt`",
             .page = "integrators.md#vcm",
             .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merging.at; })},
     Setting{.pointer = "/integrator/merge_radius",

@@ -34,13 +34,13 @@ struct MisContext {
     bool aims = false;  ///< light subpaths are aimed, see LightEmitter::sample
 };
 
-/// Holds a and b of a vertex, raised; and two such numbers for a merge at what the eye sees by deltas, which counts as
-/// soon as the path goes on to a delta (transport/merging.h).
+/// Holds a and b of a vertex, raised, and two such numbers for a merge, which counts as soon as the path reaches a
+/// delta (docs/derivations.md, equation 12).
 struct SubpathDensities {
     double a = 0.0;
     double b = 0.0;
-    double merge_a = 0.0;  ///< eta, where the merge would be
-    double merge_b = 0.0;  ///< at vertices after it
+    double merge_a = 0.0;  ///< eta at the vertex that merges, otherwise 0
+    double merge_b = 0.0;  ///< b of the merge at vertices after that one
 
     /// Returns the sum over the strategies with fewer vertices on this side, but for the raised density per area with
     /// which the other side makes this vertex. `turning_back` is q.
@@ -141,16 +141,16 @@ struct DepartingDensities {
 /// by deltas (`is_seen`), those from a light if they have come by a delta (`is_after_delta`).
 [[nodiscard]] inline bool merge_at(const MisContext& mis, SubpathEnd end, bool is_seen, bool is_after_delta,
                                    const Vec3f& position, SubpathDensities& arrived) {
-    const double expected = mis.merging.merges() ? mis.raised(mis.merging.expected(position)) : 0.0;
+    const auto expected = [&] { return mis.raised(mis.merging.expected(position)); };
     switch (mis.merging.at) {
         case MergeAt::Nothing:
             return false;
         case MergeAt::SeenByDeltas:
             if (end == SubpathEnd::AtLight) return is_after_delta;
-            if (is_seen) arrived.merge_a = expected;
+            if (is_seen) arrived.merge_a = expected();
             return is_seen;
         case MergeAt::Everywhere:
-            arrived.a += expected;
+            arrived.a += expected();
             return true;
     }
     return false;

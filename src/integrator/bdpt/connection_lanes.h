@@ -59,7 +59,7 @@ struct ConnectionColumns {
 /// Connects vertices of two subpaths; about 5 KiB. Ends stay where they are until rays are asked for.
 struct BetweenLanes : ConnectionColumns {
     MatteEndsOfBlock eye, light;
-    Column merged;  ///< SubpathDensities::merged of the eye's, if it counts
+    Column merged;  ///< SubpathDensities::merged of the eye's end, or 0 if the light has come by no delta
     Column scale;   ///< how many connections one stands for
 
     void connect(std::size_t count, const WeightRule& rule);

@@ -37,8 +37,8 @@ struct MatteConnection {
     ConnectingRay<T> ray;      ///< from the origin of the end on the eye's side, otherwise from that of the light's
 };
 
-/// Returns the connection of the ends of both subpaths, which stands for `scale` connections; `merged` is added to
-/// what is known of the eye's, see SubpathDensities::merged.
+/// Returns the connection of the ends of both subpaths, which stands for `scale` connections; `merged` is what
+/// SubpathDensities::merged says of the eye's end, or 0 if the light has come by no delta.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect_ends(const WeightRule& rule, const BasicMatteEnd<T>& eye,
                                                      const BasicMatteEnd<T>& light, T merged, T scale) {

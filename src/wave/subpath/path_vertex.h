@@ -95,7 +95,7 @@ struct ConnectibleVertex {
     bool is_seen_directly;
     bool is_dispersed;
     bool is_after_delta;
-    float merged;  ///< SubpathDensities::merged, where there is a MatteEnd
+    float merged;  ///< SubpathDensities::merged of a vertex with a MatteEnd
 };
 
 }  // namespace etendue

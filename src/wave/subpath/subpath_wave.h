@@ -95,7 +95,7 @@ class SubpathWave {
     bool make_vertex(const SubpathJob& job, std::size_t first, std::size_t k);
     /// Gives the lane of the vertex just stored, which is plain, a place for its MatteEnd and `end_fewer`; false if the
     /// vertex has no such end.
-    bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
+    bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex, double merged);
     /// Stores the matte ends of the whole block.
     void store_matte_ends();
     /// Samples the BSDFs of the first `vertices` in `on_surface_`.

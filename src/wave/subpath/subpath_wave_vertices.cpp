@@ -63,15 +63,13 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
         vertex.outside = world.media().within(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.media().within(crossing->inside) : vertex.outside;
     }
-    if (vertex.is_connectible && !path.ends_here) {
-        const double merged =
-            path.plain != nullptr
-                ? path.arrived.merged(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]))
-                : 0.0;
+    const double merged = path.plain != nullptr
+                              ? path.arrived.merged(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]))
+                              : 0.0;
+    if (vertex.is_connectible && !path.ends_here)
         vertices_.list_connectible(state, state.edges + 1, static_cast<float>(merged));
-    }
     if (path.plain != nullptr) {
-        if (make_matte_end(job, path, vertex))
+        if (make_matte_end(job, path, vertex, merged))
             vertex.matte = path.plain;
         else
             vertex.surface.emplace(*path.plain, lanes_.surface(path.lane));
@@ -83,12 +81,12 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
     return false;
 }
 
-bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex) {
+bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex,
+                                 double merged) {
     if (!makes_matte_ends_ || vertex.outside != nullptr || vertex.is_dispersed) return false;
     // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
     const double fewer = path.arrived.fewer(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
-    const double merged = path.arrived.merged(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
     for (const double density : {fewer, merged})
         if (!((density > kSmallest && density < kLargest) || density == 0.0)) return false;
     ends_[path.lane] = path.vertex;

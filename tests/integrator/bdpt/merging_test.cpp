@@ -54,10 +54,8 @@ double mean_of_render(const World& world, const Integrator& integrator, std::uin
     return mean_of(render(world, integrator, whole_image(size, size, spp, 3), threads, stop, {}).film.resolve());
 }
 
-/// A grey floor, a plate of glass above it, and above that a spot and a camera that look straight down.
-SceneDesc plate_over_floor(float camera_width) {
-    SceneDesc scene = empty_scene();
-    add_object(scene, quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+/// Adds a plate of glass above the ground, and above that a spot and a camera that look straight down.
+void add_plate(SceneDesc& scene, float camera_width) {
     add_slab(scene, 1.0f - 0.5f * kPlateThickness, 1.0f + 0.5f * kPlateThickness, glass(0.0f));
     LightDesc spot =
         light(LightType::Spot, 10.0f, looking_down(0.5f * std::numbers::pi_v<float>) * translation({0, 2, 0}));
@@ -65,6 +63,13 @@ SceneDesc plate_over_floor(float camera_width) {
     spot.outer_cone_angle = 0.16f;
     scene.lights.push_back(spot);
     look_down(scene, 3.0f, camera_width);
+}
+
+/// A grey floor under the plate.
+SceneDesc plate_over_floor(float camera_width) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    add_plate(scene, camera_width);
     return scene;
 }
 
@@ -110,13 +115,7 @@ TEST(Merging, TakesTheLightOfFoldsUnderGlass) {
     const Handle<MaterialDesc> grey = add_material(scene, diffuse(Rgb(0.5f)));
     add_object(scene, quad({-0.2f, 0.2f, 0}, {0, 0, 2}, {0.2f, -0.2f, 0}), grey);
     add_object(scene, quad({0.2f, 0.2f, 0}, {0, 0, 2}, {0.2f, 0.2f, 0}), grey);
-    add_slab(scene, 1.0f - 0.5f * kPlateThickness, 1.0f + 0.5f * kPlateThickness, glass(0.0f));
-    LightDesc spot =
-        light(LightType::Spot, 10.0f, looking_down(0.5f * std::numbers::pi_v<float>) * translation({0, 2, 0}));
-    spot.inner_cone_angle = 0.15f;
-    spot.outer_cone_angle = 0.16f;
-    scene.lights.push_back(spot);
-    look_down(scene, 3.0f, 0.2f);
+    add_plate(scene, 0.2f);
     const World world = compile(std::move(scene));
     const auto mean = [&](IntegratorSettings settings) {
         settings.lengths = {.max_depth = 7, .min_depth = 7};
