@@ -71,8 +71,7 @@ BsdfSample sample_opaque(const DielectricBody& body, const Vec3f& wo, float u_lo
 
 std::variant<SmoothDielectric, RoughDielectric> make_interface(float ior, Vec2f alpha, const Rgb& tint,
                                                                const InterfaceFresnel& fresnel) {
-    constexpr float kSameIor = 1e-4f;
-    const bool is_same = std::abs(ior - 1.0f) < kSameIor;
+    const bool is_same = !bends_light(ior);
     if (is_same || std::max(alpha.x, alpha.y) < kSmoothAlpha)
         return SmoothDielectric{.ior = is_same ? 1.0f : ior, .tint = tint, .fresnel = fresnel};
     RoughDielectric rough =

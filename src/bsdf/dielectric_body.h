@@ -8,9 +8,16 @@
 #include "bsdf/rough_dielectric.h"
 #include "bsdf/smooth_dielectric.h"
 
+#include <cmath>
 #include <variant>
 
 namespace etendue {
+
+/// Returns false if an interface of this index inside over outside neither bends nor mirrors light.
+[[nodiscard]] inline bool bends_light(float relative_ior) {
+    constexpr float kSameIor = 1e-4f;
+    return !(std::abs(relative_ior - 1.0f) < kSameIor);
+}
 
 /// The interface of this index inside over outside and of these alphas along x and y, without roughness where both are
 /// below kSmoothAlpha. Where the indices are the same there is nothing that could refract, however rough it is.

@@ -9,7 +9,7 @@
 namespace etendue {
 
 /// Bounds the lengths of paths. An edge leads from vertex to vertex, so that one edge is a light seen directly and two
-/// are direct light on a surface; media, panes and hidden boundaries add rays and no edges.
+/// are direct light on a surface; media, clear surfaces and hidden boundaries add rays and no edges.
 struct PathLengths {
     int max_depth = 32;      ///< most edges of a path from camera to light, >= 1
     int min_depth = 1;       ///< least edges of a path that is kept, >= 1

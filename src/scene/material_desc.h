@@ -40,7 +40,7 @@ struct VolumeDesc {
 
 /// A closed dielectric body whose surface reflects and refracts.
 struct DielectricDesc {
-    float ior = 1.5f;        ///< against vacuum, in (1, 3]
+    float ior = 1.5f;        ///< against vacuum, in [1, 3]
     float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is perfectly smooth (delta)
     VolumeDesc volume{.closed = true};
 };

@@ -54,9 +54,9 @@ inline constexpr std::array kTransportSettings{
             .type = WholeNumber{1, kMostInt},
             .decides = Decides::Samples,
             .unit = "rays",
-            .help =
-                "Rays, those behind panes and in media included, after which Russian roulette may end a path; `bdpt` "
-                "shares them between its subpaths",
+            .help = "Rays, those behind clear surfaces and in media included, after which Russian roulette may end a "
+                    "path; `bdpt` "
+                    "shares them between its subpaths",
             .page = "integrators.md#russian-roulette",
             .place = at([](auto& s) -> auto& { return s.integrator.lengths.roulette_depth; })},
     Setting{.pointer = "/integrator/light_samples",

@@ -48,8 +48,8 @@ void validate_volume(const VolumeDesc& volume, const SourceLocation& where, Prob
 
 void validate_override(const DielectricDesc& model, const SourceLocation& where, ProblemList& problems) {
     check_range(static_cast<double>(model.roughness), 0.0, 1.0, "roughness", where, problems);
-    if (!(model.ior > 1.0f && model.ior <= 3.0f)) {
-        problems.error(where, fmt::format("ior is {}, but must be in (1, 3]", model.ior));
+    if (!(model.ior >= 1.0f && model.ior <= 3.0f)) {
+        problems.error(where, fmt::format("ior is {}, but must be in [1, 3]", model.ior));
     }
     validate_volume(model.volume, where, problems);
 }

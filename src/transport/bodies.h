@@ -1,16 +1,31 @@
 // What paths ask of the bodies that they go through.
 #pragma once
 
+#include "bsdf/dielectric_body.h"
 #include "world/world.h"
 
 #include <optional>
 
 namespace etendue {
 
-/// Returns the share of light that arrives from `distance` metres away.
+/// Returns the share of light, [0, 1], that gets `distance` metres through what fills the space within `interior`.
 [[nodiscard]] inline Rgb transmittance(const World& world, const Interior& interior, float distance) {
     const HomogeneousMedium* medium = world.media().within(interior);
     return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+}
+
+/// Returns the share of light, [0, 1], that gets past media between the ends of `ray`, `distance` metres apart, which
+/// starts within `interior`; clear bodies may lie between them.
+[[nodiscard]] inline Rgb transmittance(const World& world, const Interior& interior, const Ray& ray, float distance,
+                                       RayEnds ends = RayEnds::InScene) {
+    return world.traits().has_clear_bodies ? world.media().transmittance(interior, ray, ends)
+                                           : transmittance(world, interior, distance);
+}
+
+/// Returns whether what leaves `material` along `sample` goes straight through: light samples and connections pass
+/// that, so that there is no vertex.
+[[nodiscard]] inline bool goes_straight_on(const Material& material, const BsdfSample& sample) {
+    return material.is_clear && sample.is_delta && sample.is_transmission && !bends_light(sample.eta);
 }
 
 /// Names a ray that has hit a surface.

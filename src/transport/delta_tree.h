@@ -41,8 +41,8 @@ void follow_deltas(const World& world, DeltaBranch branch, const State& state, i
     if (vertex.kind != Vertex::Kind::Surface) return;
     std::uint32_t child = 0;
     for (const BsdfSample& delta : vertex.scattering().deltas()) {
-        // What goes straight through a pane has no vertex there.
-        const bool passes = vertex.surface.material->is_pane && delta.is_transmission;
+        // What goes straight through a clear surface has no vertex there.
+        const bool passes = goes_straight_on(*vertex.surface.material, delta);
         if (branch.path.edges >= max_depth && !passes) continue;
         DeltaBranch next = grow_along(world, branch, vertex, delta, child++);
         next.path.edges += passes ? 0 : 1;

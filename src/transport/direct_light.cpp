@@ -67,13 +67,12 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
 
 Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput, const LightSample& light,
                        const Rgb& f_cos, float scale, const ShadowTrace& trace) {
-    const Rgb contribution = throughput * f_cos * light.radiance * scale *
-                             transmittance(world, vertex.interior_towards(light.wi), light.distance);
-    if (is_black(contribution)) return {};
     Ray ray = shadow_ray(vertex.origin_towards(light.wi), light);
     ray.time = trace.time;
     ray.alpha_key = trace.alpha_key;
-    return contribution * visibility(world, ray, trace.tracer);
+    const Rgb contribution = throughput * f_cos * light.radiance * scale *
+                             transmittance(world, vertex.interior_towards(light.wi), ray, light.distance);
+    return is_black(contribution) ? contribution : contribution * visibility(world, ray, trace.tracer);
 }
 
 }  // namespace etendue

@@ -29,7 +29,8 @@ std::optional<FilmLight> lamp_to_camera(const SubpathSample& sample, const Emiss
     ray.time = time;
     ray.alpha_key = sample.connection_key(SubpathEnd::AtLight, 0);
     const Interior interior = interior_at_light(world, emission, view->direction);
-    return FilmLight{view->camera.film, emitted.radiance * transmittance(world, interior, view->distance) *
+    return FilmLight{view->camera.film, emitted.radiance *
+                                            transmittance(world, interior, ray, view->distance, RayEnds::ToCamera) *
                                             (emitted.cosine * view->camera.importance_area * share /
                                              (emission.sample.pdf_position_area * emission.probability)) *
                                             visibility(world, ray, nullptr, RayEnds::ToCamera)};
@@ -41,10 +42,10 @@ FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& ver
     Ray ray = connecting_ray(vertex.origin_towards(view.direction), view.camera.lens);
     ray.time = sample.eye.ray.time;
     ray.alpha_key = sample.connection_key(SubpathEnd::AtLight, vertex.index);
-    return {view.camera.film, vertex.throughput * scattered * sample.wavelength_weight(vertex.is_dispersed) *
-                                  transmittance(world, vertex.interior_towards(view.direction), view.distance) *
-                                  (view.camera.importance_area * weight) *
-                                  visibility(world, ray, nullptr, RayEnds::ToCamera)};
+    return {view.camera.film,
+            vertex.throughput * scattered * sample.wavelength_weight(vertex.is_dispersed) *
+                transmittance(world, vertex.interior_towards(view.direction), ray, view.distance, RayEnds::ToCamera) *
+                (view.camera.importance_area * weight) * visibility(world, ray, nullptr, RayEnds::ToCamera)};
 }
 
 std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, const IntegratorSettings& settings) {

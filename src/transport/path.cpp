@@ -7,15 +7,16 @@ namespace etendue {
 namespace {
 
 /// Returns how many lights the path samples at `vertex`: none where their light would be on a path too short or too
-/// long. A vertex in a medium adds no edge; there, lights are sampled only if one lies in a medium, since shadow rays
-/// pass no boundary.
+/// long. A vertex in a medium adds no edge; there, lights are sampled only if shadow rays may reach one: they pass no
+/// boundary that bends light.
 std::uint32_t light_samples_at(const World& world, const EyePath& path, const Vertex& vertex,
                                const IntegratorSettings& settings) {
     const bool is_medium = vertex.kind == Vertex::Kind::Medium;
     const int edges = path.edges + (is_medium ? 0 : 1);
-    const bool samples_lights = settings.light_samples > 0 && vertex.has_non_delta() &&
-                                (is_medium ? world.traits().has_lights_in_media : world.traits().has_sampled_lights) &&
-                                settings.lengths.keeps(edges);
+    const bool samples_lights =
+        settings.light_samples > 0 && vertex.has_non_delta() &&
+        (is_medium ? world.traits().samples_lights_in_media : world.traits().has_sampled_lights) &&
+        settings.lengths.keeps(edges);
     if (!samples_lights) return 0;
     // Next-event splitting, where the eye looks.
     return path.only_deltas ? settings.light_samples : 1;

@@ -71,8 +71,10 @@ StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& 
     const float squared = length_squared(to_light);
     if (!(squared > 0.0f)) return {};
     const Vec3f w = to_light * (1.0f / std::sqrt(squared));
-    // Between different media lies a boundary, which no connection passes.
-    if (world.media().within(eye.interior_towards(w)) != world.media().within(light.interior_towards(-w))) return {};
+    // Between different media lies a boundary, and connections pass none but clear ones.
+    if (!world.traits().has_clear_bodies &&
+        world.media().within(eye.interior_towards(w)) != world.media().within(light.interior_towards(-w)))
+        return {};
     const auto at_eye = eye.evaluate_both_ways(w, TransportMode::Radiance);
     const auto at_light = light.evaluate_both_ways(-w, TransportMode::Importance);
     if (is_black(at_eye.f_cos) || is_black(at_light.f_cos)) return {};
@@ -81,7 +83,7 @@ StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& 
     ray.alpha_key =
         sample.connection_key(SubpathEnd::AtEye, eye.index) + sample.connection_key(SubpathEnd::AtLight, light.index);
     return {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput *
-                transmittance(world, eye.interior_towards(w), std::sqrt(squared)) *
+                transmittance(world, eye.interior_towards(w), ray, std::sqrt(squared)) *
                 sample.wavelength_weight(eye.is_dispersed || light.is_dispersed) * (1.0f / squared) *
                 visibility(world, ray),
             sums_between(sample.mis.raised, eye, light, w, squared, at_eye, at_light)};

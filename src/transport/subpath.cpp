@@ -52,7 +52,7 @@ void depart_from(const SubpathSample& sample, Subpath& subpath, const Vertex& ve
     subpath.interior = vertex.interior_towards(scattered.wi);
 }
 
-/// Goes straight on through the boundary of a body that another hides, or a pane.
+/// Goes straight on through the boundary of a body that another hides, or a clear surface.
 void pass_through(Subpath& subpath, const Vertex& vertex) {
     subpath.ray.origin = vertex.origin_towards(subpath.ray.direction);
     subpath.interior = vertex.interior_towards(subpath.ray.direction);
@@ -61,9 +61,9 @@ void pass_through(Subpath& subpath, const Vertex& vertex) {
 /// Goes on from a surface that the subpath has reached; false if it ends there.
 bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex, SubpathDensities densities,
                         int bounce, std::vector<SubpathVertex>& vertices) {
-    const bool is_pane = vertex.surface.material->is_pane;
+    const bool is_clear = vertex.surface.material->is_clear;
     bool ends_here = subpath.edges >= sample.lengths.max_depth;
-    if (ends_here && !is_pane) return false;
+    if (ends_here && !is_clear) return false;
     subpath.is_dispersed = subpath.is_dispersed || vertex.chooses_wavelength;
     if (vertex.has_non_delta() && !ends_here) {
         const bool is_seen = is_seen_by_deltas(subpath.end, subpath.only_deltas, subpath.index);
@@ -79,7 +79,7 @@ bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Ver
         vertex.sample(sample.pair(subpath.end, bounce, SubpathDimension::Choices).x,
                       sample.pair(subpath.end, bounce, SubpathDimension::Scattering), subpath.mode());
     if (is_black(scattered.weight)) return false;
-    if (is_pane && scattered.is_delta && scattered.is_transmission) {
+    if (goes_straight_on(*vertex.surface.material, scattered)) {
         subpath.throughput *= scattered.weight;
         pass_through(subpath, vertex);
         return true;
@@ -166,9 +166,11 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             if (arrive) arrive(subpath, surface, densities);
             if (surface.kind == Vertex::Kind::Unlit) break;
             if (surface.kind == Vertex::Kind::Boundary) {
-                // No connection passes a boundary.
-                subpath.departing.is_connectible = false;
-                subpath.is_direct = false;
+                // Connections pass none but clear boundaries.
+                if (!surface.surface.material->is_clear) {
+                    subpath.departing.is_connectible = false;
+                    subpath.is_direct = false;
+                }
                 pass_through(subpath, surface);
             } else if (!scatter_at_surface(sample, subpath, surface, densities, bounce, vertices)) {
                 break;

@@ -42,7 +42,7 @@ Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer, RayEnds
     else
         world.geometry().occluded(std::span(&ray, 1), std::span(&occluded, 1), QueryForm::Best, ends);
     if (occluded == kOccluded) return {};
-    return occluded == kPassesPanes ? world.geometry().pane_transmittance(ray, ends) : Rgb(1.0f);
+    return occluded == kPassesClear ? world.geometry().clear_transmittance(ray, ends) : Rgb(1.0f);
 }
 
 void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {
@@ -64,16 +64,16 @@ Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
 bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
              std::uint32_t light_samples, int max_depth) {
     if (vertex.kind == Vertex::Kind::Boundary) {
-        // No light sample passes a boundary.
-        path.last.samples = 0;
+        // Light samples pass none but clear boundaries.
+        if (!vertex.surface.material->is_clear) path.last.samples = 0;
+        path.last.passed += vertex.distance;
         pass(path, vertex, u.alpha_key);
         return true;
     }
     const BsdfSample sample = vertex.sample(u.lobe, u.direction);
     if (is_black(sample.weight)) return false;
     const bool is_surface = vertex.kind == Vertex::Kind::Surface;
-    if (is_surface && vertex.surface.material->is_pane && sample.is_delta && sample.is_transmission) {
-        // Light samples pass panes.
+    if (is_surface && goes_straight_on(*vertex.surface.material, sample)) {
         path.throughput *= sample.weight;
         path.last.passed += vertex.distance;
         pass(path, vertex, u.alpha_key);

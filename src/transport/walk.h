@@ -38,7 +38,7 @@ struct LightSampleContext {
     LightReceiver receiver;
     std::uint32_t samples = 0;     ///< light samples at the vertex; 0 if none of them can find what the ray meets
     float pdf_solid_angle = 0.0f;  ///< 1/sr, of the ray's direction; not meaningful if there are no `samples`
-    float passed = 0.0f;           ///< metres from the vertex to where the ray starts, over 0 behind panes
+    float passed = 0.0f;           ///< metres from the vertex to where the ray starts, over 0 behind clear surfaces
 };
 
 /// Holds a path from the eye between two of its vertices: the ray to the next one, and the share of light that comes
@@ -51,12 +51,12 @@ struct EyePath {
     float roulette_scale = 1.0f;  ///< eta² over all refractions: what radiance takes from the throughput, unlike power
     float wavelength_nm = 0.0f;   ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     int rays = 1;                 ///< traced, this one included
-    int edges = 1;                ///< rays traced without those to media, panes and hidden boundaries
+    int edges = 1;                ///< rays traced without those to media, clear surfaces and hidden boundaries
     bool only_deltas = true;  ///< every vertex so far was a delta, or there is none: the eye sees what the ray meets
     LightSampleContext last{};
     SampleTracer* tracer = nullptr;  ///< traces the path's rays; null if the World does
 
-    /// Returns true if the eye sees what the ray meets, through panes at most.
+    /// Returns true if the eye sees what the ray meets, through clear surfaces at most.
     [[nodiscard]] bool is_seen() const { return edges == 1 && only_deltas; }
 };
 
@@ -92,7 +92,8 @@ struct VertexNumbers {
 [[nodiscard]] bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
                            std::uint32_t light_samples, int max_depth);
 
-/// Sends the path straight on from `vertex`, which is none to the path: a boundary that another body hides, or a pane.
+/// Sends the path straight on from `vertex`, which is none to the path: a boundary that another body hides, or a clear
+/// surface.
 void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key);
 
 /// Ends the path at random if little light comes along it, and divides the throughput of survivors by their chance;

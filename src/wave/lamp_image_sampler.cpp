@@ -46,7 +46,7 @@ struct LampCollector {
     [[nodiscard]] WayPassed after(WayPassed way, const Vertex& vertex, const BsdfSample& delta) const {
         if (!way.has_first) way.first_position = vertex.position;
         way.has_first = true;
-        if (!words.are_followed() || (vertex.surface.material->is_pane && delta.is_transmission)) return way;
+        if (!words.are_followed() || goes_straight_on(*vertex.surface.material, delta)) return way;
         way.words = words.scatter_from_eye(way.words,
                                            surface_event(vertex.scattering(), delta.wi, true, TransportMode::Radiance,
                                                          words.label(world, vertex.surface)));

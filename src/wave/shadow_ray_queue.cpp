@@ -124,7 +124,7 @@ void ShadowRayQueue::resolve(const World& world, const TileJob& job, std::span<c
         light.count_ray(slot);
         if (occluded_[i] == kOccluded) continue;
         Rgb value{floats_[kRed][i], floats_[kGreen][i], floats_[kBlue][i]};
-        if (occluded_[i] == kPassesPanes) value *= world.geometry().pane_transmittance(rays_traced[i], ends_of(kind_));
+        if (occluded_[i] == kPassesClear) value *= world.geometry().clear_transmittance(rays_traced[i], ends_of(kind_));
         const auto kind = static_cast<LightKind>(bits_[kLightKind][i]);
         if (places_.empty())
             light.add(slot, value, kind, shares);

@@ -38,7 +38,7 @@ void require_still_and_small(const WorldData& data) {
 }
 
 bool lets_pass(const Material& material) {
-    return material.alpha_test != AlphaTest::Opaque || material.is_pane || !material.visible_to_camera;
+    return material.alpha_test != AlphaTest::Opaque || material.is_clear || !material.visible_to_camera;
 }
 
 }  // namespace
@@ -53,8 +53,8 @@ void HitAgreement::add(const HitAgreement& other) {
 /// Lets a ray pass what Embree's filter functions let it pass.
 class AcceleratedScene::Filter final : public TriangleFilter {
   public:
-    Filter(const AcceleratedScene& scene, const Ray& ray, RayEnds ends, bool passes_panes)
-        : scene_(scene), ray_(ray), ends_(ends), passes_panes_(passes_panes) {}
+    Filter(const AcceleratedScene& scene, const Ray& ray, RayEnds ends, bool passes_clear)
+        : scene_(scene), ray_(ray), ends_(ends), passes_clear_(passes_clear) {}
 
     [[nodiscard]] bool stops(const TriangleHit& met) override { return stops(scene_.make_hit(met, ray_.time)); }
     [[nodiscard]] bool stops(const Hit& hit) {
@@ -64,18 +64,18 @@ class AcceleratedScene::Filter final : public TriangleFilter {
         if (material.alpha_test != AlphaTest::Opaque &&
             !stops_ray(ray_.alpha_key, hit, evaluate_opacity(data, hit.geometry, hit.triangle, {hit.u, hit.v})))
             return false;
-        if (!passes_panes_ || !material.is_pane) return true;
-        has_passed_pane = true;
+        if (!passes_clear_ || !material.is_clear) return true;
+        has_passed_clear = true;
         return false;
     }
 
-    bool has_passed_pane = false;
+    bool has_passed_clear = false;
 
   private:
     const AcceleratedScene& scene_;
     const Ray& ray_;
     RayEnds ends_;
-    bool passes_panes_;
+    bool passes_clear_;
 };
 
 AcceleratedScene::AcceleratedScene(const WorldData& data, AcceleratorKind kind) : data_(data) {
@@ -141,7 +141,7 @@ std::uint8_t AcceleratedScene::occlusion(const Ray& ray, RayEnds ends, RayWork& 
     Filter filter(*this, ray, ends, true);
     if (accelerator_->any_hit(ray, has_filters_ ? &filter : nullptr, work)) return kOccluded;
     if (!shapes_.empty() && closest_shape(ray, ray.t_max, filter).valid()) return kOccluded;
-    return filter.has_passed_pane ? kPassesPanes : kFree;
+    return filter.has_passed_clear ? kPassesClear : kFree;
 }
 
 double AcceleratedScene::replay(std::span<const Ray> rays, bool occlusion, RayWork& work) const {

@@ -26,7 +26,7 @@ struct HitAgreement {
 
 /// Holds all triangles of a World in world space, instances as often as they are placed, with an accelerator over them.
 /// Rays try exact shapes one after the other besides.
-/// Partly transparent surfaces, panes, and what is hidden from the camera let the same rays pass as in Embree.
+/// Partly transparent surfaces, clear ones, and what is hidden from the camera let the same rays pass as in Embree.
 class AcceleratedScene {
   public:
     /// Limits the triangles, which take 48 bytes each here.

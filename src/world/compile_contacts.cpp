@@ -187,7 +187,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
     for (const Geometry& geometry : data.geometries) {
         const Material& material = data.materials[geometry.material];
         filters.push_back({.by_opacity = material.alpha_test != AlphaTest::Opaque,
-                           .passes_shadows = material.is_pane,
+                           .passes_shadows = material.is_clear,
                            .is_hidden = !material.visible_to_camera,
                            .culls_back = material.culls_back});
     }
@@ -198,12 +198,12 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
         touches = find_touches(data, threads);
     }
     const std::vector<Slot> slots = all_slots(data);
-    std::vector<CollectedSlot> panes(slots.size());
+    std::vector<CollectedSlot> clear_slots(slots.size());
     for (const Slot& slot : slots)
-        panes[slot.index].is_whole = data.materials[data.geometries[slot.geometry].material].is_pane;
-    if (std::ranges::any_of(panes, &CollectedSlot::is_whole))
-        data.panes = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads,
-                                                   std::move(panes));
+        clear_slots[slot.index].is_whole = data.materials[data.geometries[slot.geometry].material].is_clear;
+    if (std::ranges::any_of(clear_slots, &CollectedSlot::is_whole))
+        data.clear_surfaces = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters,
+                                                            threads, std::move(clear_slots));
     if (touches.pairs.empty() && touches.is_complete) return;
     const auto emits = [&](std::uint32_t slot) {
         return data.materials[data.geometries[slots[slot].geometry].material].emits;

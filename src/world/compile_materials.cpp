@@ -26,7 +26,7 @@ Bsdf compile_conductor(const ConductorDesc& desc, const ColorMatrix& from_rec709
 }
 
 Bsdf compile_dielectric(const DielectricDesc& desc) {
-    if (is_smooth(desc.roughness)) return SmoothDielectric{desc.ior};
+    if (is_smooth(desc.roughness) || !bends_light(desc.ior)) return SmoothDielectric{desc.ior};
     return RoughDielectric::make(desc.ior, desc.roughness * desc.roughness);
 }
 
@@ -146,8 +146,10 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     material.unlit = desc.unlit && std::holds_alternative<std::monostate>(desc.override_model);
     if (has_alpha) compile_alpha(desc, textures, material);
     if (const auto* model = std::get_if<GltfModel>(&material.model))
-        material.is_pane = !material.unlit && !model->refracts && model->transmission > 0.0f &&
-                           model->metallic < 1.0f && model->roughness * model->roughness < kSmoothAlpha;
+        material.is_clear = !material.unlit && model->transmission > 0.0f && model->metallic < 1.0f &&
+                            (model->refracts ? !bends_light(model->ior) : is_smooth(model->roughness));
+    if (const auto* dielectric = std::get_if<DielectricDesc>(&desc.override_model))
+        material.is_clear = !bends_light(dielectric->ior);
     material.normal_texture = textures.slot(desc.normal_texture, TextureUse::NormalMap);
     material.normal_scale = desc.normal_scale;
 

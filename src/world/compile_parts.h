@@ -85,8 +85,8 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t m
 /// in `data`.
 void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& problems);
 
-/// The BVHs of all surfaces and of panes, and where surfaces touch: thin sheets are moved apart, the others are for
-/// `Contacts`. Needs materials, geometry and bodies in `data`.
+/// The BVHs of all surfaces and of clear ones, and where surfaces touch: thin sheets are moved apart, the others are
+/// for `Contacts`. Needs materials, geometry and bodies in `data`.
 void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems);
 
 /// The environment, which must be enabled; `problems` gets a warning of values that are no radiance. Throws SceneError

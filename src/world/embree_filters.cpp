@@ -49,14 +49,14 @@ void let_pass(const RTCFilterFunctionNArguments* args) {
             args->valid[i] = 0;
 }
 
-/// Lets shadow rays pass panes.
+/// Lets shadow rays pass clear surfaces.
 template <bool Hidden, bool Culled, bool ByOpacity>
-void pass_panes(const RTCFilterFunctionNArguments* args) {
+void let_shadows_pass(const RTCFilterFunctionNArguments* args) {
     let_pass<Hidden, Culled, ByOpacity>(args);
     for (unsigned int i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         args->valid[i] = 0;
-        context_of(*args).passed[RTCRayN_id(args->ray, args->N, i)] = kPassesPanes;
+        context_of(*args).passed[RTCRayN_id(args->ray, args->N, i)] = kPassesClear;
     }
 }
 
@@ -65,7 +65,7 @@ template <bool Hidden, bool Culled, bool ByOpacity>
 FilterFunctions let_through(bool passes_shadows) {
     FilterFunctions functions;
     if (Hidden || Culled || ByOpacity) functions.intersect = functions.occluded = let_pass<Hidden, Culled, ByOpacity>;
-    if (passes_shadows) functions.occluded = pass_panes<Hidden, Culled, ByOpacity>;
+    if (passes_shadows) functions.occluded = let_shadows_pass<Hidden, Culled, ByOpacity>;
     return functions;
 }
 

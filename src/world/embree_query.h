@@ -33,7 +33,8 @@ struct QueryContext {
     const std::uint32_t* alpha_keys;
     RayEnds ends = RayEnds::InScene;
     CollectedHits* collected = nullptr;  ///< only for `EmbreeScene::collect`
-    std::uint8_t* passed = nullptr;      ///< by ray, set to kPassesPanes where one does; only where there are panes
+    std::uint8_t* passed =
+        nullptr;  ///< by ray, set to kPassesClear where one does; only where there are clear surfaces
 
     QueryContext(const EmbreeScene& owner, std::span<const Ray> batch, bool coherent)
         : scene(&owner), rays(batch.data()), alpha_keys(nullptr) {

@@ -52,7 +52,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
                          const ThreadPool& threads, std::vector<CollectedSlot> collected)
     : collects_(!collected.empty()),
       collected_(std::move(collected)),
-      has_panes_(!collects_ && std::ranges::any_of(filters, &HitFilter::passes_shadows)) {
+      has_clear_surfaces_(!collects_ && std::ranges::any_of(filters, &HitFilter::passes_shadows)) {
     has_motion_ =
         !motions.empty() || std::ranges::any_of(geometries, [](const Geometry& g) { return !g.motion.empty(); });
     std::atomic<std::size_t> memory{0};
@@ -226,18 +226,18 @@ void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool
         });
 }
 
-// Embree marks occluded rays with tfar = -inf; filter functions mark those that pass panes.
+// Embree marks occluded rays with tfar = -inf; filter functions mark those that pass clear surfaces.
 
 template <typename Batch>
 void EmbreeScene::occluded_single(const Batch& rays, std::span<std::uint8_t> occluded, RayEnds ends) const {
     QueryContext context(*this, rays, false);
     context.ends = ends;
     context.passed = occluded.data();
-    if (has_panes_) std::ranges::fill(occluded, kFree);
+    if (has_clear_surfaces_) std::ranges::fill(occluded, kFree);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         RTCRay query = make_ray(rays[i], static_cast<unsigned int>(i));
         embree::occluded1(top_, context.base, query);
-        occluded[i] = query.tfar < 0.0f ? kOccluded : has_panes_ ? occluded[i] : kFree;
+        occluded[i] = query.tfar < 0.0f ? kOccluded : has_clear_surfaces_ ? occluded[i] : kFree;
     }
 }
 
@@ -246,11 +246,11 @@ void EmbreeScene::occluded_packets(const Batch& rays, std::span<std::uint8_t> oc
     QueryContext context(*this, rays, false);
     context.ends = ends;
     context.passed = occluded.data();
-    if (has_panes_) std::ranges::fill(occluded, kFree);
+    if (has_clear_surfaces_) std::ranges::fill(occluded, kFree);
     for_each_packet<Width, typename Packet<Width>::Rays>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
             embree::occluded(mask.valid, top_, context.base, packet);
-            if (has_panes_) {
+            if (has_clear_surfaces_) {
                 for (std::size_t lane = 0; lane < count; ++lane)
                     if (packet.tfar[lane] < 0.0f) occluded[first + lane] = kOccluded;
             } else {

@@ -125,7 +125,7 @@ class EmbreeScene {
     std::vector<CollectedSlot> collected_;
     std::deque<std::vector<std::array<std::uint32_t, 3>>> collected_indices_;
     std::vector<std::unique_ptr<const EmbreeShape>> shapes_;  ///< to which Embree points
-    bool has_panes_ = false;
+    bool has_clear_surfaces_ = false;
 };
 
 }  // namespace etendue

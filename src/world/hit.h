@@ -28,14 +28,14 @@ enum class Coherence {
 };
 
 /// Answer a ray that asks whether something is in the way.
-inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
+inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesClear = 2;
 
 /// Says where rays begin and end: those with an end at the camera pass what is hidden from it. All pass culled backs,
 /// as the eye sees them: rays that follow light meet those surfaces from the other side.
 enum class RayEnds {
     InScene,    ///< from the eye's side towards lights
-    AtCamera,   ///< from the camera, straight or through panes
-    ToCamera,   ///< from a light's side to the camera, straight or through panes
+    AtCamera,   ///< from the camera, straight or through clear surfaces
+    ToCamera,   ///< from a light's side to the camera, straight or through clear surfaces
     FromLight,  ///< from a light's side into the scene
 };
 

@@ -101,18 +101,19 @@ struct Material {
     bool emits_both_sides = false;
     Beam beam;  ///< beam of the emission
 
-    bool visible_to_camera = true;  ///< false: what the camera sees straight or through panes goes on behind it
-    bool catches_shadows = false;   ///< the camera sees straight what share of its light is taken from it
-    bool culls_back = false;        ///< the eye does not see it from behind, straight or by any way
+    bool visible_to_camera =
+        true;                      ///< false: what the camera sees straight or through clear surfaces goes on behind it
+    bool catches_shadows = false;  ///< the camera sees straight what share of its light is taken from it
+    bool culls_back = false;       ///< the eye does not see it from behind, straight or by any way
 
     AlphaTest alpha_test = AlphaTest::Opaque;
     float alpha_cutoff = 0.5f;
     float alpha_factor = 1.0f;
     TextureSlot alpha_texture;
 
-    /// A thin sheet without roughness: some of the light goes straight through it, which rays that connect points
-    /// follow.
-    bool is_pane = false;
+    /// Some of the light goes straight through, which rays that connect points follow: the surface is a pane, which is
+    /// a thin sheet without roughness, or bounds a body whose index is that of vacuum.
+    bool is_clear = false;
 
     bool unlit = false;  ///< shows its base colour to the eye and scatters nothing
     TextureSlot normal_texture;

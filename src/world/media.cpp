@@ -1,5 +1,6 @@
 #include "world/media.h"
 
+#include "bsdf/dielectric_body.h"
 #include "bsdf/fresnel.h"
 #include "core/position_error.h"
 #include "light/light.h"
@@ -86,6 +87,26 @@ Crossing Media::contact_crossing(SurfacePoint& point, const Interior& current, c
                       .is_covered = face == nullptr};
     if (!crossing.is_covered) set_indices(data_, body, crossing);
     return crossing;
+}
+
+Rgb Media::transmittance(const Interior& interior, const Ray& ray, RayEnds ends) const {
+    Rgb passed(1.0f);
+    Interior current = interior;
+    float from = 0.0f;
+    const auto go_to = [&](float t) {
+        if (const HomogeneousMedium* medium = within(current)) passed *= medium->transmittance(t - from);
+        from = t;
+    };
+    bool is_bent = false;
+    geometry_.for_each_clear(ray, ends, [&](const Hit& hit, const SurfacePoint& point) {
+        if (!is_boundary(point)) return;
+        const Crossing crossing = this->crossing(point, current);
+        is_bent = is_bent || (!crossing.is_covered && bends_light(crossing.relative_ior(0.0f)));
+        go_to(hit.t);
+        current = dot(ray.direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
+    });
+    go_to(ray.t_max);
+    return is_bent ? Rgb() : passed;
 }
 
 const HomogeneousMedium* Media::medium_of(std::uint32_t body) const {

@@ -37,6 +37,9 @@ class Media {
     [[nodiscard]] const HomogeneousMedium* within(const Interior& interior) const {
         return interior.is_empty() ? nullptr : medium_of(interior.filling());
     }
+    /// Returns the share of light, [0, 1], that media leave between the ends of `ray`, which starts within `interior`
+    /// and passes clear bodies; black where one of these bends it. Does not ask what else is in the way.
+    [[nodiscard]] Rgb transmittance(const Interior& interior, const Ray& ray, RayEnds ends) const;
     /// Returns the bodies that `point` is in in the middle of the shutter, found by a ray through all that lies above
     /// it.
     [[nodiscard]] Interior interior_at(const Vec3f& point) const;

@@ -49,7 +49,7 @@ double replay_single(RTCScene top, std::span<const Ray> rays, QueryContext& cont
 double EmbreeScene::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
     const bool coherent = !occlusion && takes_as_coherent(coherence) && form != QueryForm::Single;
     QueryContext context(*this, rays, coherent);
-    std::vector<std::uint8_t> passed(rays.size());  // where filter functions say which shadow rays pass panes
+    std::vector<std::uint8_t> passed(rays.size());  // where filter functions say which shadow rays pass clear surfaces
     context.passed = passed.data();
     switch (form) {
         case QueryForm::Single:

@@ -50,7 +50,7 @@ void settle_contacts(const WorldData& data, const Materials& materials, const Ba
 
 SceneGeometry::SceneGeometry(const WorldData& data, const Materials& materials) : data_(data), materials_(materials) {
     data_.bvh->set_opacity(opacity_callback, &data_);
-    if (data_.panes) data_.panes->set_opacity(opacity_callback, &data_);
+    if (data_.clear_surfaces) data_.clear_surfaces->set_opacity(opacity_callback, &data_);
     if (data_.contacts) data_.contacts->set_opacity(opacity_callback, &data_);
     if (data_.accelerator != AcceleratorKind::Embree) accelerated_ = accelerate(data_.accelerator);
     has_far_triangles_ = triangle_bytes() + data_.bvh->bytes() > kCachedGeometry;
@@ -118,33 +118,40 @@ SurfacePoint SceneGeometry::surface_point(const Hit& hit, const Ray& ray, const 
                               ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
 }
 
-Rgb SceneGeometry::pane_transmittance(const Ray& ray, RayEnds ends) const {
+void SceneGeometry::for_each_clear(const Ray& ray, RayEnds ends,
+                                   const std::function<void(const Hit&, const SurfacePoint&)>& visit) const {
     std::array<Hit, 16> few;
     std::vector<Hit> many;
     std::span<Hit> hits = few;
-    std::size_t count = data_.panes->collect(ray, 0.0f, hits);
+    std::size_t count = data_.clear_surfaces->collect(ray, 0.0f, hits);
     while (count == hits.size()) {
         many.resize(2 * hits.size());
         hits = many;
-        count = data_.panes->collect(ray, 0.0f, hits);
+        count = data_.clear_surfaces->collect(ray, 0.0f, hits);
     }
     hits = hits.first(count);
     // In one order, whatever Embree's is, so that rounding is always the same.
     std::ranges::sort(hits, {},
                       [](const Hit& hit) { return std::tuple(hit.t, hit.instance, hit.geometry, hit.triangle); });
-    Rgb transmittance(1.0f);
     for (const Hit& hit : hits) {
         if (has_end_at_camera(ends) && materials_.is_hidden_from_camera(hit)) continue;
         const SurfacePoint point = surface_point(hit);
         if (point.material->culls_back && passes_culled(ends, dot(ray.direction, point.geometric_normal))) continue;
+        visit(hit, point);
+    }
+}
+
+Rgb SceneGeometry::clear_transmittance(const Ray& ray, RayEnds ends) const {
+    Rgb transmittance(1.0f);
+    const Vec3f wo = -ray.direction;
+    for_each_clear(ray, ends, [&](const Hit&, const SurfacePoint& point) {
         Bsdf storage;
-        const Vec3f wo = -ray.direction;
         Rgb passed;
         for (const BsdfSample& delta :
              Scattering(materials_.bsdf(point, wo, 0.0f, storage), point.shading, point.geometric_normal, wo).deltas())
             if (delta.is_transmission) passed += delta.weight;
         transmittance *= passed;
-    }
+    });
     return transmittance;
 }
 

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -38,15 +39,18 @@ class SceneGeometry {
                    QueryForm form = QueryForm::Best, RayEnds ends = RayEnds::InScene) const;
     void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form = QueryForm::Best,
                    RayEnds ends = RayEnds::InScene) const;
-    /// Answers kOccluded where something but panes lies within (0, t_max], else kPassesPanes or kFree; `occluded` is as
-    /// long as `rays`.
+    /// Answers kOccluded where something but clear surfaces lies within (0, t_max], else kPassesClear or kFree;
+    /// `occluded` is as long as `rays`.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best,
                   RayEnds ends = RayEnds::InScene) const;
     void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best,
                   RayEnds ends = RayEnds::InScene) const;
-    /// Returns the share of light that passes the panes between the ends of `ray`, which may be anything along which
-    /// nothing else lies.
-    [[nodiscard]] Rgb pane_transmittance(const Ray& ray, RayEnds ends = RayEnds::InScene) const;
+    /// Calls `visit` for each clear surface between the ends of `ray`, one after the other.
+    void for_each_clear(const Ray& ray, RayEnds ends,
+                        const std::function<void(const Hit& hit, const SurfacePoint& point)>& visit) const;
+    /// Returns the share of light that passes the clear surfaces between the ends of `ray`, which may be anything along
+    /// which nothing else lies; without what media absorb between them.
+    [[nodiscard]] Rgb clear_transmittance(const Ray& ray, RayEnds ends = RayEnds::InScene) const;
     /// Returns the seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look
     /// at what they hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;

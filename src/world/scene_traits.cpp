@@ -1,6 +1,7 @@
 #include "world/scene_traits.h"
 
 #include "bsdf/bsdf.h"
+#include "bsdf/dielectric_body.h"
 #include "bsdf/ggx.h"
 #include "world/embree_scene.h"
 #include "world/light_emitter.h"
@@ -17,10 +18,11 @@ namespace etendue {
 
 bool is_specular(const Material& material) {
     if (material.unlit) return false;
-    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) return !has_non_delta(*constant);
+    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model))
+        return !has_non_delta(*constant) && !material.is_clear;
     const GltfModel& model = std::get<GltfModel>(material.model);
-    if (material.is_pane && !model.layers && model.transmission == 1.0f && model.specular == 0.0f &&
-        model.metallic == 0.0f)
+    const bool mirrors = model.refracts ? bends_light(model.ior) : model.specular > 0.0f;
+    if (material.is_clear && !model.layers && model.transmission == 1.0f && !mirrors && model.metallic == 0.0f)
         return false;  // light goes straight on
     return model.roughness * model.roughness < kSmoothAlpha ||
            (model.layers && model.layers->clearcoat > 0.0f &&
@@ -38,7 +40,7 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     };
     SceneTraits traits;
     traits.has_textures = !data.textures.empty();
-    traits.has_panes = data.panes != nullptr;
+    traits.has_clear_surfaces = data.clear_surfaces != nullptr;
     traits.culls_backs = has_surface([](const Material& material) { return material.culls_back; });
     // Light passes culled surfaces, or meets them, at random.
     traits.has_transparency = traits.culls_backs || std::ranges::any_of(data.materials, [](const Material& m) {
@@ -59,6 +61,8 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.has_bodies = !data.filling_of_body.empty();
     traits.has_scattering_bodies =
         std::ranges::any_of(data.fillings, [](const Filling& filling) { return filling.medium.scatters(); });
+    traits.has_clear_bodies =
+        has_surface([](const Material& material) { return material.is_clear && material.filling != kNone; });
     traits.has_lights = !emitters.selector().empty();
     traits.has_delta_lights = std::ranges::any_of(data.lights, is_delta_light);
     traits.has_sampled_lights = !lights.tree().empty();
@@ -68,12 +72,14 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.chooses_emitters = emitters.selector().size() > 1;
     traits.has_environment = data.environment != kNone;
     traits.environment_visible_to_camera = data.environment_visible;
+    traits.samples_lights_in_media =
+        traits.has_sampled_lights && traits.has_clear_bodies && traits.has_scattering_bodies;
     if (traits.has_bodies && traits.has_sampled_lights)
         for (std::uint32_t light = 0; light < data.lights.size(); ++light) {
             const std::optional<Interior>& interior = media.light_interior(light);
             const HomogeneousMedium* around = interior ? media.within(*interior) : nullptr;
             if (interior ? around != nullptr && around->scatters() : traits.has_scattering_bodies)
-                traits.has_lights_in_media = true;
+                traits.samples_lights_in_media = true;
         }
     return traits;
 }

@@ -12,7 +12,7 @@ class Media;
 /// Answers what a scene has and needs, once it is compiled, so that integrators leave out what it does not need.
 struct SceneTraits {
     bool has_textures = false;           ///< something is textured, so that rays need cones
-    bool has_panes = false;              ///< some surface is a pane
+    bool has_clear_surfaces = false;     ///< light goes straight through some surface: panes and clear bodies
     bool has_transparency = false;       ///< some surface lets rays through at random, so that they need alpha keys
     bool has_motion = false;             ///< something moves while the shutter is open, so that rays need times
     bool film_wraps = false;             ///< the camera sees all around: its film goes on beyond its edges
@@ -30,7 +30,10 @@ struct SceneTraits {
 
     bool has_bodies = false;             ///< there is something that light can be in
     bool has_scattering_bodies = false;  ///< light scatters in some bodies
-    bool has_lights_in_media = false;    ///< some light, or a part of it, may lie in a medium that scatters
+    bool has_clear_bodies = false;       ///< the surfaces of some bodies bend no light, so that light samples pass them
+    /// Is set if light samples may arrive in a medium that scatters: some light, or a part of it, may lie in one, or
+    /// there are clear bodies.
+    bool samples_lights_in_media = false;
 
     bool has_lights = false;          ///< some light sends out rays
     bool has_delta_lights = false;    ///< some light has no extent, so that no ray meets it by chance

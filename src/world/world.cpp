@@ -56,8 +56,8 @@ WorldStatistics World::statistics() const {
                     vector_bytes(data.lights, data.emitter_of_light, data.light_of_slot);
     for (const Light& light : data.lights) s.light_bytes += light_bytes(light);
     s.isa = data.bvh->instruction_set();
-    s.bvh_bytes =
-        data.bvh->bytes() + (data.panes ? data.panes->bytes() : 0) + (data.contacts ? data.contacts->bytes() : 0);
+    s.bvh_bytes = data.bvh->bytes() + (data.clear_surfaces ? data.clear_surfaces->bytes() : 0) +
+                  (data.contacts ? data.contacts->bytes() : 0);
     s.bvh_build_seconds = data.bvh->build_seconds();
     s.bvh_quality = bvh_quality();
     s.compile_phases = data.compile_phases;

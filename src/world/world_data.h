@@ -67,8 +67,8 @@ struct WorldData {
     /// Says what `SceneGeometry` asks for what rays meet.
     AcceleratorKind accelerator = AcceleratorKind::Embree;
     std::unique_ptr<EmbreeScene> bvh;
-    std::unique_ptr<EmbreeScene> panes;  ///< for `collect`; null if there are none
-    std::unique_ptr<Contacts> contacts;  ///< null if no surfaces touch for which that matters
+    std::unique_ptr<EmbreeScene> clear_surfaces;  ///< for `collect`; null if there are none
+    std::unique_ptr<Contacts> contacts;           ///< null if no surfaces touch for which that matters
     /// Holds 1 for emitters that touch other emitters; empty without contacts.
     std::vector<std::uint8_t> shares_place_of_slot;
     /// Holds planes that take a ray clear of surfaces in which a lamp lies, for each lamp.

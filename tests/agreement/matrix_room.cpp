@@ -196,6 +196,9 @@ void add_medium(SceneDesc& scene, const RoomTraits& room, const RoomImages& imag
         case MediumPlace::BothIn:
             fill({0, 0, -2}, 6.0f, 1.00001f, 0.0f, 12.0f);
             return add_light_in_room(scene, room, images);
+        case MediumPlace::Between:
+            fill(ball, 0.8f, 1.0f, 0.0f, 1.5f);
+            return add_light_in_room(scene, room, images);
     }
 }
 

@@ -18,11 +18,20 @@ constexpr BodyNormals kNormals[] = {BodyNormals::Flat, BodyNormals::Smooth, Body
                                     BodyNormals::NegativeScale};
 constexpr RoomCamera kCameras[] = {RoomCamera::Pinhole, RoomCamera::ThinLens, RoomCamera::Orthographic};
 constexpr RoomMedium kMedia[] = {RoomMedium::Absorbing, RoomMedium::Scattering};
-constexpr MediumPlace kPlaces[] = {MediumPlace::CameraIn, MediumPlace::LightIn, MediumPlace::BothIn};
+constexpr MediumPlace kPlaces[] = {MediumPlace::CameraIn, MediumPlace::LightIn, MediumPlace::BothIn,
+                                   MediumPlace::Between};
 
 template <typename Enum, std::size_t N>
 std::string_view name_in(const std::string_view (&names)[N], Enum value) {
     return names[static_cast<std::size_t>(value)];
+}
+
+bool camera_is_in(MediumPlace place) {
+    return place == MediumPlace::CameraIn || place == MediumPlace::BothIn;
+}
+
+bool light_is_in(MediumPlace place) {
+    return place == MediumPlace::LightIn || place == MediumPlace::BothIn;
 }
 
 /// Seen by each camera, whole and cropped.
@@ -42,7 +51,7 @@ void add_media_rooms(std::vector<RoomTraits>& rooms) {
             for (const MediumPlace place : kPlaces)
                 for (const RoomCamera camera : {RoomCamera::Pinhole, RoomCamera::Orthographic}) {
                     // What is infinitely far away is in no body.
-                    if (place != MediumPlace::CameraIn && light == RoomLight::Environment) continue;
+                    if (light == RoomLight::Environment && light_is_in(place)) continue;
                     rooms.push_back({.light = light, .camera = camera, .medium = medium, .place = place});
                 }
 }
@@ -83,7 +92,7 @@ std::string_view name_of(RoomMedium medium) {
 }
 
 std::string_view name_of(MediumPlace place) {
-    return name_in({"camera in", "light in", "both in"}, place);
+    return name_in({"camera in", "light in", "both in", "between"}, place);
 }
 
 std::string name_of(const RoomTraits& room) {
@@ -140,14 +149,14 @@ std::string_view reason_of(Exclusion exclusion) {
 Exclusion exclusion_of(const RoomTraits& room, std::string_view integrator) {
     if (integrator == "naive" && room.has_delta_light()) return Exclusion::LightCannotBeHit;
     if (integrator == "path" && room.has_delta_light() && room.has_smooth_body()) return Exclusion::CausticOfDeltaLight;
-    if (integrator == "path" && room.medium == RoomMedium::Scattering && room.place != MediumPlace::CameraIn &&
+    if (integrator == "path" && room.medium == RoomMedium::Scattering && light_is_in(room.place) &&
         room.has_delta_light())
         return Exclusion::InfiniteVarianceAtLight;
     if (integrator == "vcm" && !(room.has_smooth_body() && room.body_is_seen())) return Exclusion::NothingMerges;
     if (integrator == "light") {
         if (room.has_smooth_body() && room.body_is_seen()) return Exclusion::SeenBySmoothSurface;
         if (room.light == RoomLight::VisibleEnvironment) return Exclusion::SeenEnvironment;
-        if (room.medium == RoomMedium::Scattering && room.place != MediumPlace::LightIn &&
+        if (room.medium == RoomMedium::Scattering && camera_is_in(room.place) &&
             room.camera != RoomCamera::Orthographic)
             return Exclusion::InfiniteVarianceAtCamera;
     }

@@ -13,7 +13,7 @@ enum class BodyMaterial { Diffuse, Glossy, Conductor, Dielectric, RoughDielectri
 enum class BodyNormals { Flat, Smooth, Mapped, NegativeScale, Touching };
 enum class RoomCamera { Pinhole, ThinLens, Orthographic };
 enum class RoomMedium { None, Absorbing, Scattering, Clear };
-enum class MediumPlace { CameraIn, LightIn, BothIn };
+enum class MediumPlace { CameraIn, LightIn, BothIn, Between };
 
 struct RoomTraits {
     RoomLight light = RoomLight::Area;

@@ -322,6 +322,37 @@ std::vector<AgreementCase> all_cases() {
     // Scattering in media adds no edges: with the fewest of them there is still light from all over the fog.
     cases.push_back({"LampInFogWithoutSurfaces", in_fog, {.max_depth = 1}, all, 16, bdpt});
     cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 32, bdpt});
+    // Neither light nor camera is in the cloud, whose boundary light samples and connections pass.
+    const auto behind_cloud = [](SceneDesc& scene) {
+        add_ball(scene, gltf_plastic());
+        add_occluder(scene);
+        MaterialDesc cloud;
+        DielectricDesc desc{.ior = 1.0f, .roughness = 0.0f};
+        desc.volume.attenuation_distance = 0.4f;
+        desc.volume.attenuation_color = {0.3f, 0.4f, 0.5f};
+        desc.volume.multiscatter_color = {0.8f, 0.7f, 0.6f};
+        desc.volume.scatter_anisotropy = 0.4f;
+        cloud.override_model = desc;
+        add_object(scene, sphere({0.1f, 0.1f, -2.6f}, 0.5f, 12), add_material(scene, cloud));
+    };
+    cases.push_back({"CloudUnderLamp",
+                     [=](SceneDesc& scene) {
+                         behind_cloud(scene);
+                         add_lamp(scene);
+                     },
+                     {.max_depth = 4},
+                     all,
+                     32,
+                     {"path", "light", "bdpt"}});
+    cases.push_back({"CloudUnderSun",
+                     [=](SceneDesc& scene) {
+                         behind_cloud(scene);
+                         scene.lights.push_back(sun_light());
+                     },
+                     {.max_depth = 4},
+                     all,
+                     32,
+                     {"path", "light", "bdpt"}});
     // Light leaves one lamp within a body and in the open. Light tracing does not see what lies behind the body.
     cases.push_back({"LampAcrossBody",
                      [](SceneDesc& scene) {

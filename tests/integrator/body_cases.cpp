@@ -2,6 +2,7 @@
 // bodies, however they nest, overlap, disperse or scatter, do not show in a white environment.
 #include "integrator/closed_form.h"
 #include "integrator/closed_form_scene.h"
+#include "medium/homogeneous_medium.h"
 
 #include <cmath>
 #include <cstdint>
@@ -111,16 +112,64 @@ std::vector<ClosedFormCase> matte_boundary_cases() {
     return cases;
 }
 
-// From a floor in two bodies at once, of which the one with priority goes on beyond the boundary of the other: no light
-// sample passes that, so what a path meets behind it counts in full. All around is as bright.
-ClosedFormCase hidden_boundary_case() {
+// From a floor in two bodies at once, of which the one with priority goes on beyond the boundary of the other. Light
+// samples pass that only if it is clear; what a path meets behind another counts in full. All around is as bright.
+ClosedFormCase hidden_boundary_case(const std::string& name, float ior) {
+    MaterialDesc hidden = tinted_air(0, 1.0f);
+    hidden.ior = ior;
     SceneDesc scene = empty_in_environment();
     scene.environment.enabled = false;
     add(scene, sphere({0.0f, 0.0f, 0.0f}, 5.0f, 2, Facing::Inwards), emitter(1.0f));
     add(scene, sphere({0.0f, 0.0f, 0.0f}, 9.0f, 2, Facing::Outwards), tinted_air(1, 1.0f));
-    add(scene, slab(0.5f, -2.0f), tinted_air(0, 1.0f));
+    add(scene, slab(0.5f, -2.0f), hidden);
     add(scene, parallelogram({0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), diffuse(kAlbedo));
-    return {"lamp_behind_a_hidden_boundary", scene, kRho, 1e-5, {.max_depth = 2}, kFindAllBounces, 16};
+    return {name, scene, kRho, 1e-5, {.max_depth = 2}, kFindAllBounces, 16};
+}
+
+/// Light from outside clear bodies, which light samples pass.
+std::vector<ClosedFormCase> clear_body_cases() {
+    std::vector<ClosedFormCase> cases;
+    const auto without_sky = [] {
+        SceneDesc scene = empty_in_environment();
+        scene.environment.enabled = false;
+        return scene;
+    };
+    const PrimitiveDesc wall = parallelogram({0.0f, 0.0f, -2.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f});
+    // A metre of air before the wall, which the sun crosses with a cosine of 0.8.
+    SceneDesc sun = without_sky();
+    add(sun, wall, diffuse(kAlbedo));
+    add_light(sun, LightType::Directional, kPi, {0.0f, 0.0f, 5.0f}, {0.6f, 0.0f, -0.8f});
+    SceneDesc one = sun;
+    add(one, slab(-0.5f, -1.5f), tinted_air());
+    const double passed = kAlbedo * 0.8 * std::pow(0.25, 1.0 + 1.0 / 0.8);
+    cases.push_back({"sun_through_tinted_air", one, passed, 1e-5, {.max_depth = 2}, kFindDeltaLights, 16});
+    SceneDesc three = sun;
+    add(three, slab(-0.5f, -1.5f), tinted_air(0, 0.5f));
+    add(three, slab(-0.8f, -1.2f), tinted_air(1, 1.0f));
+    add(three, slab(-1.5f, -1.9f), tinted_air(0, 0.125f));
+    // Of the first, 0.6 m are left; what has priority absorbs nothing; the third touches the first.
+    const double layers = kAlbedo * 0.8 * std::pow(std::pow(0.5, 0.6) * std::pow(0.125, 0.4), 1.0 + 1.0 / 0.8);
+    cases.push_back({"sun_through_layers_of_air", three, layers, 1e-5, {.max_depth = 2}, kFindDeltaLights, 16});
+
+    // A lamp all around, which paths meet, too: every way to the point is a metre of air.
+    SceneDesc lamp = without_sky();
+    add(lamp, wall, diffuse(kAlbedo));
+    add(lamp, sphere({0.0f, 0.0f, -2.0f}, 5.0f, 2, Facing::Inwards), emitter(1.0f));
+    add(lamp, sphere({0.0f, 0.0f, -2.0f}, 1.0f, 5, Facing::Outwards), tinted_air());
+    cases.push_back({"lamp_through_tinted_air", lamp, kRho * 0.25 * 0.25, 5e-3, {.max_depth = 2}, kFindAllBounces});
+
+    // Air that scatters a thousandth of what it takes, seen from outside; the sun shines through two metres of it.
+    MaterialDesc mist = tinted_air(0, static_cast<float>(std::exp(-1.0)));
+    mist.volume.multiscatter_color = Rgb(2.5e-4f);
+    mist.volume.scatter_anisotropy = 0.3f;
+    const double albedo = static_cast<double>(HomogeneousMedium::albedo_from_multiscatter(Rgb(2.5e-4f), 0.3f).g);
+    const double phase = (1.0 - 0.09) / (4.0 * kPiD * std::pow(1.0 + 0.09, 1.5));
+    SceneDesc cloud = without_sky();
+    add(cloud, slab(-1.0f, -2.0f), mist);
+    add_light(cloud, LightType::Directional, kPi, {0.0f, 5.0f, 0.0f}, {0.0f, -1.0f, 0.0f});
+    const double scattered = albedo * phase * kPiD * std::exp(-2.0) * (1.0 - std::exp(-1.0));
+    cases.push_back({"sun_in_thin_mist", cloud, scattered, 3e-3, {.max_depth = 4}, kFindAllBouncesOfDeltaLights, 256});
+    return cases;
 }
 
 ClosedFormCase lossless(const std::string& name, SceneDesc scene, double tolerance,
@@ -175,6 +224,13 @@ std::vector<ClosedFormCase> lossless_cases() {
     add(glass_of_milk, ball({0.0f, 0.0f, 0.0f}, 0.9f), dielectric(1.3f, 0.0f, milk));
     cases.push_back(lossless("milk_in_glass", glass_of_milk, 1e-3, kFindAllBounces));
 
+    MaterialDesc cloud = tinted_air();
+    cloud.volume = milk;
+    SceneDesc clouds = empty_in_environment();
+    add(clouds, ball({0.0f, 0.0f, 0.0f}, 0.9f), cloud);
+    add(clouds, ball({0.3f, 0.5f, 0.3f}, 0.7f), cloud);
+    cases.push_back(lossless("clouds", clouds, 1e-3, kFindAllBounces));
+
     MaterialDesc wax;
     wax.metallic = 0.0f;
     wax.roughness = 0.5f;
@@ -201,7 +257,9 @@ std::vector<ClosedFormCase> body_cases() {
     std::vector<ClosedFormCase> cases = absorption_cases();
     for (ClosedFormCase& c : lossless_cases()) cases.push_back(std::move(c));
     for (ClosedFormCase& c : matte_boundary_cases()) cases.push_back(std::move(c));
-    cases.push_back(hidden_boundary_case());
+    cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_boundary", 1.5f));
+    cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_clear_boundary", 1.0f));
+    for (ClosedFormCase& c : clear_body_cases()) cases.push_back(std::move(c));
     return cases;
 }
 

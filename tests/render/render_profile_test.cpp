@@ -114,7 +114,7 @@ TEST(RenderProfile, EveryShadowRayIsOfALightSampleInMediaToo) {
     add_object(scene, sphere({0, 0, -3}, 2.0f, 16), add_material(scene, fog));
     add_object(scene, sphere({0.3f, 0.2f, -3}, 0.4f, 8), add_material(scene, emissive(Rgb(2.0f))));
     const World world = compile(std::move(scene));
-    ASSERT_TRUE(world.traits().has_lights_in_media);
+    ASSERT_TRUE(world.traits().samples_lights_in_media);
     for (const char* integrator : {"path", "bdpt"}) {
         RenderProfile profile(1, 0);
         RenderOptions options = options_for(24, 24, 16);

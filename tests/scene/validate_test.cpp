@@ -97,7 +97,7 @@ const Defect kDefects[] = {
      [](SceneDesc& s) {
          s.materials[0].override_model = ConductorDesc{"Xx", 0.0f};
      }},
-    {"DielectricIorOne", "(1, 3]",
+    {"DielectricIorBelowOne", "[1, 3]",
      [](SceneDesc& s) {
          s.materials[0].override_model = DielectricDesc{1.0f, 0.0f};
      }},

@@ -281,12 +281,12 @@ TEST(World, RaysWithAnEndAtTheCameraPassWhatIsHiddenFromIt) {
                     world.geometry().occluded({&ray, 1}, {&occluded, 1}, form, ends);
                     return occluded;
                 };
-                EXPECT_EQ(way(RayEnds::InScene), material.transmission > 0.0f ? kPassesPanes : kOccluded);
+                EXPECT_EQ(way(RayEnds::InScene), material.transmission > 0.0f ? kPassesClear : kOccluded);
                 EXPECT_EQ(way(RayEnds::AtCamera), kFree);
             }
             if (material.transmission > 0.0f) {
-                EXPECT_LT(world.geometry().pane_transmittance(ray).r, 1.0f);
-                EXPECT_EQ(world.geometry().pane_transmittance(ray, RayEnds::AtCamera), Rgb(1.0f));
+                EXPECT_LT(world.geometry().clear_transmittance(ray).r, 1.0f);
+                EXPECT_EQ(world.geometry().clear_transmittance(ray, RayEnds::AtCamera), Rgb(1.0f));
             }
         }
 }
@@ -329,9 +329,9 @@ TEST(World, RaysPassCulledBacksFromWhereTheEyeIsBehindThem) {
                         EXPECT_EQ(meets(to_back), follows_light(ends));
                     }
                 if (material.transmission == 0.0f) continue;
-                EXPECT_LT(world.geometry().pane_transmittance(to_front).r, 1.0f);
-                EXPECT_EQ(world.geometry().pane_transmittance(to_back), Rgb(1.0f));
-                EXPECT_LT(world.geometry().pane_transmittance(to_back, RayEnds::ToCamera).r, 1.0f);
+                EXPECT_LT(world.geometry().clear_transmittance(to_front).r, 1.0f);
+                EXPECT_EQ(world.geometry().clear_transmittance(to_back), Rgb(1.0f));
+                EXPECT_LT(world.geometry().clear_transmittance(to_back, RayEnds::ToCamera).r, 1.0f);
             }
 }
 

@@ -95,7 +95,7 @@ class BdptWave final : public IntegratorScratch {
     void find_cached(const BdptJob& job, const ConnectibleVertex& eye, int count);
     void find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end, const ConnectibleVertex& light,
               float scale);
-    void find_singly(const ConnectibleVertex& eye, const ConnectibleVertex& light, float scale);
+    void find_singly(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, float scale);
     // With what both ends scatter: weights, and the rays that will tell.
     void weigh(const BdptJob& job, const ToLight& connection);
     void weigh(const BdptJob& job, const ToCamera& connection);

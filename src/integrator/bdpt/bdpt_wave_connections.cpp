@@ -97,8 +97,10 @@ void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share = job.weight(sums_of_light_sample(job.mis, vertex, chosen, value));
     if (share == 0.0f) return;
-    queue(job, *connection.vertex, chosen.light, light.wi, shadow_ray(vertex.origin(light.wi), light),
-          vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
+    const Ray ray = job.timed(shadow_ray(vertex.origin(light.wi), light), vertex.slot);
+    queue(job, *connection.vertex, chosen.light, light.wi, ray,
+          vertex.throughput * value.f_cos * light.radiance *
+              eye_.vertices().transmittance(job.world(), vertex, ray, light.distance) *
               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / chosen.density()),
           light_connections_);
 }
@@ -109,14 +111,13 @@ void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
         const auto& [vertex, light] = wide_to_lights_[lane];
         if (const Rgb brought = to_light_lanes_.contribution[lane]; !is_black(brought))
-            queue(job, *vertex, light, to_light_lanes_.wi[lane], to_light_lanes_.ray(lane), brought,
-                  wide_light_connections_);
+            queue(job, *vertex, light, to_light_lanes_.wi[lane], job.timed(to_light_lanes_.ray(lane), vertex->slot),
+                  brought, wide_light_connections_);
     }
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, std::uint32_t light, const Vec3f& wi, Ray ray,
                      const Rgb& brought, ShadowRayQueue& connections) {
-    ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     shares_.clear();
     if (PathWords& words = eye_.vertices().words(); words.are_followed()) {
@@ -170,8 +171,10 @@ void BdptWave::weigh(const BdptJob& job, const ToCamera& connection) {
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share = job.weight(sums_at_lens(job.mis, vertex, view.direction, view.camera, value));
-    queue(job, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
-          vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
+    const Ray ray = job.timed(connecting_ray(vertex.origin(view.direction), view.camera.lens), vertex.slot);
+    queue(job, *connection.vertex, view, ray,
+          vertex.throughput * value.f_cos *
+              light_.vertices().transmittance(job.world(), vertex, ray, view.distance, RayEnds::ToCamera) *
               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
           camera_connections_);
 }
@@ -189,13 +192,13 @@ void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
     for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
         const auto& [vertex, view] = wide_to_cameras_[lane];
         if (const Rgb brought = to_camera_lanes_.contribution[lane]; !is_black(brought))
-            queue(job, *vertex, view, to_camera_lanes_.ray(lane), brought, wide_camera_connections_);
+            queue(job, *vertex, view, job.timed(to_camera_lanes_.ray(lane), vertex->slot), brought,
+                  wide_camera_connections_);
     }
 }
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
                      const Rgb& brought, ShadowRayQueue& connections) {
-    ray.time = job.camera_rays[vertex.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
     shares_.clear();
     if (light_.vertices().words().are_followed())
@@ -253,7 +256,7 @@ void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const Matt
         !job.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
     const MatteEnd& light_end = light_.vertices().matte_end(light);
-    if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, light, scale);
+    if (!eye_end.exists() || !light_end.exists()) return find_singly(job, eye, light, scale);
     // About every other one faces away, in no order that a branch could be foretold by.
     const Vec3f w = light_end.position - eye_end.position;
     wide_between_[wide_between_count_] = {&eye, &light, &eye_end, &light_end, scale};
@@ -262,7 +265,8 @@ void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const Matt
     if (wide_between_count_ == wide_between_.size()) weigh_wide_between(job);
 }
 
-void BdptWave::find_singly(const ConnectibleVertex& eye_vertex, const ConnectibleVertex& light_vertex, float scale) {
+void BdptWave::find_singly(const BdptJob& job, const ConnectibleVertex& eye_vertex,
+                           const ConnectibleVertex& light_vertex, float scale) {
     const PathVertex& eye = eye_.vertices().whole(eye_vertex);
     const PathVertex& light = light_.vertices().whole(light_vertex);
     const Vec3f to_light = light.position - eye.position;
@@ -270,8 +274,8 @@ void BdptWave::find_singly(const ConnectibleVertex& eye_vertex, const Connectibl
     const float squared = length_squared(to_light);
     if (!(squared > 0.0f)) return;
     const Vec3f w = to_light * (1.0f / std::sqrt(squared));
-    // Between different media lies a boundary, which no connection passes.
-    if (eye.medium(w) != light.medium(-w)) return;
+    // Between different media lies a boundary, and connections pass none but clear ones.
+    if (!job.world().traits().has_clear_bodies && eye.medium(w) != light.medium(-w)) return;
     between_.push_back({.eye = &eye_vertex, .light = &light_vertex, .w = w, .squared = squared, .scale = scale});
 }
 
@@ -280,8 +284,10 @@ void BdptWave::weigh(const BdptJob& job, const Between& connection) {
     const PathVertex& eye = eye_.vertices().whole(*eye_vertex);
     const PathVertex& light = light_.vertices().whole(*light_vertex);
     const float share = job.weight(sums_between(job.mis.raised, eye, light, w, squared, at_eye, at_light));
-    queue(job, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
-          eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
+    const Ray ray = job.timed(connecting_ray(eye.origin(w), light.origin(-w)), eye.slot);
+    queue(job, *eye_vertex, *light_vertex, ray,
+          eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput *
+              eye_.vertices().transmittance(job.world(), eye, ray, std::sqrt(squared)) *
               job.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
           vertex_connections_);
 }
@@ -300,7 +306,8 @@ void BdptWave::weigh_wide_between(const BdptJob& job) {
     if (!asks_for_each(job)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
     for (std::size_t lane = 0; lane < count; ++lane)
         if (const Rgb brought = between_lanes_.contribution[lane]; !is_black(brought))
-            queue(job, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
+            queue(job, *wide_between_[lane].eye, *wide_between_[lane].light,
+                  job.timed(between_lanes_.ray(lane), wide_between_[lane].eye->slot), brought,
                   wide_vertex_connections_);
 }
 
@@ -317,7 +324,6 @@ void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Sha
 
 void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
                      const Rgb& brought, ShadowRayQueue& connections) {
-    ray.time = job.camera_rays[eye.slot].time;
     ray.alpha_key = job.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
                     job.connection_key(SubpathEnd::AtLight, light.index, light.slot);
     shares_.clear();

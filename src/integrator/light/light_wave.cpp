@@ -63,8 +63,7 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
         if (!view) continue;
         const Rgb scattered = vertex.evaluate(view->direction, TransportMode::Importance);
         if (is_black(scattered)) continue;
-        Ray ray = connecting_ray(vertex.origin(view->direction), view->camera.lens);
-        ray.time = time;
+        Ray ray = job.timed(connecting_ray(vertex.origin(view->direction), view->camera.lens), vertex.slot);
         ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
         shares_.clear();
         if (subpaths_.vertices().words().are_followed())
@@ -74,7 +73,8 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
             ray, vertex.slot,
             {.position = view->pixel,
              .value = vertex.throughput * scattered * job.wavelength_weight(vertex.slot, vertex.is_dispersed) *
-                      vertex.transmittance(view->direction, view->distance) * view->camera.importance_area,
+                      subpaths_.vertices().transmittance(job.world(), vertex, ray, view->distance, RayEnds::ToCamera) *
+                      view->camera.importance_area,
              .depth = view->depth},
             vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
         if (!connections_.is_full()) continue;

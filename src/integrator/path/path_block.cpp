@@ -11,7 +11,7 @@ void PathBlock::draw_numbers(const PathContext& context, const WavePaths& wave) 
     const std::span indices(wave.index.data() + first, count);
     const bool has_bodies = context.world.traits().has_bodies;
     const bool ends =
-        context.rays >= context.settings.lengths.max_depth && !has_bodies && !context.world.traits().has_panes;
+        context.rays >= context.settings.lengths.max_depth && !has_bodies && !context.world.traits().has_clear_surfaces;
     const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
         if (is_needed && !ends)
             numbers.draw(context.job.sequence, pixel_seeds, indices, dimension);
@@ -58,7 +58,7 @@ VertexEvent PathBlock::wide_event(const World& world, const PathWords& words, st
 }
 
 std::size_t PathBlock::bytes() const {
-    std::size_t bytes = vector_bytes(singles, panes);
+    std::size_t bytes = vector_bytes(singles, clear);
     for (const NumberPairs* numbers :
          {&light_choice, &light_triangle, &light_direction, &bsdf_direction, &choices, &medium})
         bytes += numbers->bytes();

@@ -40,10 +40,10 @@ struct SingleShading {
     BsdfSample sample;
 };
 
-/// Holds what a path keeps when it goes straight through a pane: its last vertex stays the one before.
-struct PanePassage {
+/// Holds what a path keeps when it goes straight through a clear surface: its last vertex stays the one before.
+struct ClearPassage {
     LightReceiver from;
-    float passed = 0.0f;  ///< metres, behind the pane
+    float passed = 0.0f;  ///< metres, behind the surface
 };
 
 /// Holds what the stages of shading a block of paths tell each other. Path `k` of the block is path `first` + `k` of
@@ -56,7 +56,7 @@ struct PathBlock {
     NumberPairs medium;   ///< x: how far, y: by which channel
     std::array<ShadedPath, kBlockLanes> paths{};
     std::vector<SingleShading> singles{kBlockLanes};
-    std::vector<PanePassage> panes;                 ///< only if the World has panes
+    std::vector<ClearPassage> clear;                ///< only if the World has clear surfaces
     std::array<ChosenLight, kBlockLanes> lights{};  ///< light samples outside the lanes, by path
     LaneList escaped;                               ///< paths that have left the scene
     LaneList on_emitter, on_hidden;                 ///< paths on surfaces that emit, on hidden boundaries

@@ -23,8 +23,8 @@ inline constexpr std::uint32_t kUnsampled = 1u;
 inline constexpr std::uint32_t kOnlyDeltas = 2u;
 /// Every scattering but the last was a delta: what the path meets lights what the eye sees directly or in mirrors.
 inline constexpr std::uint32_t kIsDirect = 4u;
-/// Adds one to the edges of the path when its ray has hit, which the bits above the flags count. Media, panes and
-/// hidden boundaries add none.
+/// Adds one to the edges of the path when its ray has hit, which the bits above the flags count. Media, clear surfaces
+/// and hidden boundaries add none.
 inline constexpr std::uint32_t kOneEdge = 8u;
 inline constexpr std::uint32_t kFlags = kOneEdge - 1u;
 
@@ -33,7 +33,7 @@ inline constexpr std::uint32_t kAtEye = kOneEdge | kUnsampled | kOnlyDeltas | kI
 [[nodiscard]] constexpr int edges(std::uint32_t history) {
     return static_cast<int>(history / kOneEdge);
 }
-/// Returns true if the eye sees what the path's ray meets, through panes at most.
+/// Returns true if the eye sees what the path's ray meets, through clear surfaces at most.
 [[nodiscard]] constexpr bool is_seen(std::uint32_t history) {
     return edges(history) == 1 && (history & kOnlyDeltas) != 0;
 }

@@ -284,30 +284,24 @@ void PathLight::queue_shadow_ray_of_single(const PathContext& context, std::size
     const SurfacePoint& point = path.point;
     Rgb contribution = paths_.throughput[block_.first + k] * path.towards_light.f_cos * light.radiance *
                        light_sample_scale(block_.lights[k], path.towards_light.pdf_solid_angle);
-    if (context.world.traits().has_bodies)
-        contribution *= path.wavelength.weight * transmittance(context.world,
-                                                               path.crossing ? beyond(*path.crossing, point, light.wi)
-                                                                             : paths_.interiors[block_.first + k],
-                                                               light.distance);
+    if (context.world.traits().has_bodies) contribution *= path.wavelength.weight;
     queue_shadow_ray(
         context, k, round,
-        shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
-        contribution, block_.paths[k].light,
+        {shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
+         light.distance, path.crossing ? &beyond(*path.crossing, point, light.wi) : nullptr, block_.paths[k].light},
+        contribution,
         paths_.words.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
                                                     paths_.words.label(context.world, point))
                                     : VertexEvent{});
 }
 
 void PathLight::queue_shadow_ray_of_lane(const PathContext& context, std::size_t k, std::uint32_t round) {
-    Rgb contribution = block_.lanes.contribution[k];
-    if (context.world.traits().has_bodies)
-        contribution *=
-            transmittance(context.world, paths_.interiors[block_.first + k], block_.lanes.light_distance[k]);
     Ray ray;
     ray.origin = block_.lanes.shadow_origin[k];
     ray.direction = block_.lanes.shadow_direction[k];
     ray.t_max = block_.lanes.shadow_t_max[k];
-    queue_shadow_ray(context, k, round, ray, contribution, block_.paths[k].light,
+    queue_shadow_ray(context, k, round, {ray, block_.lanes.light_distance[k], nullptr, block_.paths[k].light},
+                     block_.lanes.contribution[k],
                      paths_.words.are_followed()
                          ? block_.wide_event(context.world, paths_.words, k, block_.lanes.light_wi[k])
                          : VertexEvent{});
@@ -334,10 +328,9 @@ void PathLight::queue_shadow_rays_in_medium(const PathContext& context, std::siz
         const LightSample& light = chosen.sample;
         if (is_black(light.radiance)) continue;
         const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);
-        queue_shadow_ray(context, k, round, shadow_ray(position, light),
-                         paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
-                             (phase * light_sample_scale(chosen, phase)),
-                         chosen.light, VertexEvent{});
+        queue_shadow_ray(context, k, round, {shadow_ray(position, light), light.distance, nullptr, chosen.light},
+                         paths_.throughput[i] * light.radiance * (phase * light_sample_scale(chosen, phase)),
+                         VertexEvent{});
     }
 }
 
@@ -348,15 +341,21 @@ void PathLight::add(std::size_t i, const Rgb& light, const AovSet::Source& sourc
     found_.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
 }
 
-void PathLight::queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray,
-                                 const Rgb& contribution, std::uint32_t light, const VertexEvent& event) {
-    if (is_black(contribution)) return;
+void PathLight::queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, RayToLight to_light,
+                                 Rgb contribution, const VertexEvent& event) {
     const std::size_t i = block_.first + k;
+    Ray& ray = to_light.ray;
+    ray.time = paths_.time[i];
+    ray.alpha_key = paths_.shadow_alpha_key(context, i, round);
+    if (context.world.traits().has_bodies)
+        contribution *=
+            transmittance(context.world, to_light.interior != nullptr ? *to_light.interior : paths_.interiors[i], ray,
+                          to_light.distance);
+    if (is_black(contribution)) return;
     shares_.clear();
     if (paths_.words.are_followed())
-        paths_.words.end_at_light(paths_.ranges[i], event, paths_.words.light_source(context.world, light), shares_);
-    ray.time = paths_.time[i];
-    ray.alpha_key = paths_.shadow_alpha_key(context, block_.first + k, round);
+        paths_.words.end_at_light(paths_.ranges[i], event, paths_.words.light_source(context.world, to_light.light),
+                                  shares_);
     shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
                            paths_.is(path_history::kOnlyDeltas, i) ? LightKind::Direct : LightKind::Indirect, shares_);
 }

@@ -91,10 +91,17 @@ class PathLight {
     void queue_shadow_rays_of_lanes(const PathContext& context, std::uint32_t round);
     /// Draws the numbers for the `round`-th light sample of path `k` alone.
     [[nodiscard]] LightNumbers draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const;
-    /// Queues `ray` of path `k` towards `light` with its `contribution`; `event` is how the vertex scatters towards
-    /// that light.
-    void queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray,
-                          const Rgb& contribution, std::uint32_t light, const VertexEvent& event);
+    /// Holds a shadow ray, but for its time and alpha key.
+    struct RayToLight {
+        Ray ray;
+        float distance = 0.0f;               ///< metres from the vertex to the light
+        const Interior* interior = nullptr;  ///< the bodies that it starts in; null for those that the path is in
+        std::uint32_t light = 0;
+    };
+    /// Queues the shadow ray of path `k` with its `contribution`, which media on the way are yet to weaken; `event` is
+    /// how the vertex scatters towards the light.
+    void queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, RayToLight to_light,
+                          Rgb contribution, const VertexEvent& event);
 
     WavePaths& paths_;
     PathBlock& block_;

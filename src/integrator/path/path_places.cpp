@@ -26,7 +26,7 @@ void PathPlaces::set_up(const PathContext& context) {
         const PlainSurface* const plain = block_.paths[k].plain = world.materials().plain_surface(paths_.hits[i]);
         if (plain == nullptr && !set_up_any(context, k)) continue;
         if (paths_.edges(i) < context.settings.lengths.max_depth ||
-            (plain == nullptr && block_.singles[k].point.material->is_pane))
+            (plain == nullptr && block_.singles[k].point.material->is_clear))
             block_.on_surface.add(k);
         else
             paths_.end_path(context, block_.first + k, PathEnding::TooLong);
@@ -41,7 +41,7 @@ bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
     if (world.traits().has_bodies)
         block_.singles[k].crossing =
             crossing_at(world, point, {paths_.ray(i), paths_.interiors[i], paths_.hits[i], paths_.cone(i)});
-    if (point.material->is_pane) block_.panes[k] = {paths_.receiver(i), paths_.metres_passed(i) + paths_.hits[i].t};
+    if (point.material->is_clear) block_.clear[k] = {paths_.receiver(i), paths_.metres_passed(i) + paths_.hits[i].t};
     block_.on_emitter.add_if(point.material->emits, k);
     if (block_.singles[k].crossing && block_.singles[k].crossing->is_covered) {
         block_.on_hidden.add(k);

@@ -98,8 +98,8 @@ bool PathScattering::scatter_at_surface(const PathContext& context, std::size_t 
     const BsdfSample& sample = path.sample;
     count_sample(context, k, sample);
     if (is_black(sample.weight)) return false;
-    if (point.material->is_pane && sample.is_delta && sample.is_transmission) {
-        pass_pane(context, k);
+    if (goes_straight_on(*point.material, sample)) {
+        pass_straight(context, k);
         return true;
     }
     if (paths_.edges(i) >= context.settings.lengths.max_depth) {
@@ -138,7 +138,7 @@ bool PathScattering::scatter_in_medium(const PathContext& context, std::size_t k
 
     const Vec3f wo = -paths_.direction[i];
     const Vec3f position = paths_.origin[i] - wo * sample.distance;
-    const bool samples_lights = context.samples_lights() && context.world.traits().has_lights_in_media;
+    const bool samples_lights = context.samples_lights() && context.world.traits().samples_lights_in_media;
     if (samples_lights && context.settings.lengths.is_long_enough(paths_.edges(i)))
         light_.queue_shadow_rays_in_medium(context, k, position, *medium);
     const Vec3f direction = medium->phase.sample(wo, block_.bsdf_direction[k]);
@@ -156,7 +156,7 @@ bool PathScattering::scatter_in_medium(const PathContext& context, std::size_t k
     return true;
 }
 
-void PathScattering::pass_pane(const PathContext& context, std::size_t k) {
+void PathScattering::pass_straight(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     const SingleShading& path = block_.singles[k];
     const SurfacePoint& point = path.point;
@@ -164,16 +164,25 @@ void PathScattering::pass_pane(const PathContext& context, std::size_t k) {
     paths_.set_cone(i, paths_.cone(i).at(paths_.hits[i].t));
     paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, paths_.direction[i]));
     paths_.alpha_key.set(i, paths_.next_alpha_key(context, block_.first + k));
-    if (!paths_.receivers.empty()) paths_.receivers[i] = block_.panes[k].from;
-    paths_.passed[i] = block_.panes[k].passed;
+    if (path.crossing) paths_.interiors[i] = beyond(*path.crossing, point, paths_.direction[i]);
+    keep_last_vertex(k);
+}
+
+void PathScattering::keep_last_vertex(std::size_t k) {
+    const std::size_t i = block_.first + k;
+    if (!paths_.receivers.empty()) paths_.receivers[i] = block_.clear[k].from;
+    paths_.passed[i] = block_.clear[k].passed;
 }
 
 void PathScattering::pass_hidden(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     const SurfacePoint& point = block_.singles[k].point;
     const Vec3f direction = paths_.direction[i];
-    // No light sample passes a boundary, so what the path meets next could not have been sampled.
-    paths_.history.set(i, paths_.history[i] | path_history::kUnsampled);
+    // Light samples pass none but clear boundaries, so what the path meets beyond others could not have been sampled.
+    if (point.material->is_clear)
+        keep_last_vertex(k);
+    else
+        paths_.history.set(i, paths_.history[i] | path_history::kUnsampled);
     paths_.set_cone(i, paths_.cone(i).at(paths_.hits[i].t));
     paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, direction));
     paths_.alpha_key.set(i, paths_.next_alpha_key(context, block_.first + k));

@@ -32,8 +32,10 @@ class PathScattering {
     void scatter_by_lanes(const PathContext& context);
 
   private:
-    /// Takes path `k` straight through a pane, which is no vertex: light samples pass panes, too.
-    void pass_pane(const PathContext& context, std::size_t k);
+    /// Has path `k` go on as if it still came from the vertex before.
+    void keep_last_vertex(std::size_t k);
+    /// Takes path `k` straight through a clear surface, which is no vertex.
+    void pass_straight(const PathContext& context, std::size_t k);
     /// Tells the profile, if there is one, how path `k` scattered.
     void count_sample(const PathContext& context, std::size_t k, const BsdfSample& sample) const;
     /// Bends the cone of path `k`, which has arrived as `arriving`, as `sample` does, before the path's ray is changed.

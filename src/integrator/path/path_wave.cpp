@@ -23,7 +23,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     const std::span<Ray> camera_rays = std::span(camera_rays_).first(count);
     const std::span<CameraSample> samples = std::span(paths_.samples).first(count);
     generate_camera_rays(world, job, first, samples, camera_rays);
-    if (world.traits().has_panes) block_.panes.resize(kBlockLanes);
+    if (world.traits().has_clear_surfaces) block_.clear.resize(kBlockLanes);
     light_.begin(job, count, counters);
     paths_.begin(world, job, camera_rays);
     active_ = count;

@@ -30,7 +30,7 @@ class PathWave final : public IntegratorScratch {
                std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
   private:
-    /// Finds what the eye sees through panes where rays have hit what is hidden from it or too far away.
+    /// Finds what the eye sees through clear surfaces where rays have hit what is hidden from it or too far away.
     void look_again(const World& world, const TileJob& job, RenderCounters& counters);
     /// Ends the first `count` paths that have met a shadow catcher, of which the camera sees the shadow alone: before
     /// the environment where it sees that, and else as alpha.

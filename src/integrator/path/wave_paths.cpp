@@ -8,7 +8,7 @@ namespace etendue {
 void WavePaths::begin(const World& world, const TileJob& job, std::span<const Ray> rays) {
     if (world.traits().has_bodies) interiors.assign(kCapacity, world.media().camera_interior());
     if (world.traits().chooses_lights_by_receiver) receivers.resize(kCapacity);
-    if (world.traits().has_panes) passed.assign(kCapacity, 0.0f);
+    if (world.traits().has_clear_surfaces) passed.assign(kCapacity, 0.0f);
     words.reset(job.aovs);
     if (words.are_followed()) ranges.assign(kCapacity, words.begin_at_eye());
     PathColumns::begin(rays, samples);

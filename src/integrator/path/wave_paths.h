@@ -19,7 +19,7 @@ struct WavePaths : PathColumns {
     std::vector<Hit> hits{kCapacity};
     std::vector<Interior> interiors;       ///< only if the World has bodies
     std::vector<LightReceiver> receivers;  ///< where rays start; only if the World chooses lights by that
-    std::vector<float> passed;             ///< see `metres_passed`; only if the World has panes
+    std::vector<float> passed;             ///< see `metres_passed`; only if the World has clear surfaces
     std::vector<WordRange> ranges;         ///< words of the paths so far; only if words are followed
     PathWords words;
     std::vector<CameraSample> samples{kCapacity};  ///< by slot
@@ -31,7 +31,7 @@ struct WavePaths : PathColumns {
     [[nodiscard]] LightReceiver receiver(std::size_t i) const {
         return receivers.empty() ? LightReceiver{} : receivers[i];
     }
-    /// Returns the metres from the vertex that path `i` comes from to where its ray starts, behind panes.
+    /// Returns the metres from the vertex that path `i` comes from to where its ray starts, behind clear surfaces.
     [[nodiscard]] float metres_passed(std::size_t i) const { return passed.empty() ? 0.0f : passed[i]; }
     /// Returns the cone of path `i` where its ray ends.
     [[nodiscard]] RayCone arriving_cone(std::size_t i) const { return cone(i).at(hits[i].t); }

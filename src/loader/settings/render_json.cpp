@@ -17,8 +17,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr NumberRange kFieldOfView{.min = 0.0, .max = 3.141592, .open_min = true};
-constexpr NumberRange kIor{.min = 1.0, .max = 3.0, .open_min = true};
-constexpr NumberRange kSurfaceIor{.min = 1.0, .max = 3.0};
+constexpr NumberRange kIor{.min = 1.0, .max = 3.0};
 constexpr NumberRange kAnisotropy{.min = -0.999, .max = 0.999};
 constexpr std::int64_t kMaxPriority = 1'000'000;
 
@@ -119,7 +118,7 @@ SubsurfaceDesc read_subsurface(const Json& value, const SourceLocation& where, P
     object.color("albedo", kUnit, result.albedo);
     object.color("radius", kPositive, result.radius);
     object.number("anisotropy", kAnisotropy, result.anisotropy);
-    object.number("ior", kSurfaceIor, result.ior);
+    object.number("ior", kIor, result.ior);
     object.number("roughness", kUnit, result.roughness);
     object.finish();
     return result;

@@ -38,13 +38,14 @@ class LampsToCamera {
             shares_.clear();
             if (PathWords& words = subpaths.vertices().words(); words.are_followed())
                 words.end_at_camera(words.light_source(world, emission.light), shares_);
-            connections.to_film(ray, slot,
-                                {.position = view->pixel,
-                                 .value = emitted.radiance * transmittance(world, interior, view->distance) *
-                                          (emitted.cosine * view->camera.importance_area * share /
-                                           (emission.sample.pdf_position_area * emission.probability)),
-                                 .depth = view->depth},
-                                LightKind::Seen, shares_);
+            connections.to_film(
+                ray, slot,
+                {.position = view->pixel,
+                 .value = emitted.radiance * transmittance(world, interior, ray, view->distance, RayEnds::ToCamera) *
+                          (emitted.cosine * view->camera.importance_area * share /
+                           (emission.sample.pdf_position_area * emission.probability)),
+                 .depth = view->depth},
+                LightKind::Seen, shares_);
         }
     }
 

@@ -78,11 +78,6 @@ struct PathVertex {
     [[nodiscard]] const HomogeneousMedium* medium(const Vec3f& w) const {
         return dot(w, geometric_normal) > 0.0f ? outside : inside;
     }
-    /// Returns the share of light, [0, 1], that gets `distance` metres far along `w`.
-    [[nodiscard]] Rgb transmittance(const Vec3f& w, float distance) const {
-        const HomogeneousMedium* around = medium(w);
-        return around != nullptr ? around->transmittance(distance) : Rgb(1.0f);
-    }
 };
 
 /// Holds what the search for connections asks of a vertex that can be connected; the search asks one vertex after the

@@ -42,6 +42,11 @@ struct SubpathJob {
     [[nodiscard]] bool needs(SubpathEnd end, SubpathDimension which) const;
     /// Returns the alpha key of rays that connect the vertex of this index; 0 if nothing is transparent.
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
+    /// Returns `ray`, of a connection, at the time of the sample in `slot`.
+    [[nodiscard]] Ray timed(Ray ray, std::uint32_t slot) const {
+        ray.time = camera_rays[slot].time;
+        return ray;
+    }
 };
 
 }  // namespace etendue

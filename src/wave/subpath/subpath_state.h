@@ -22,7 +22,7 @@ struct SubpathState {
     WordRange words;
     std::uint32_t slot = 0;
     int index = 1;  ///< index of the vertex to come
-    int edges = 1;  ///< edges of the path when its ray has hit; media, panes and hidden boundaries add none
+    int edges = 1;  ///< edges of the path when its ray has hit; media, clear surfaces and hidden boundaries add none
     bool is_dispersed = false;
     bool only_deltas = true;
     bool is_after_delta = false;

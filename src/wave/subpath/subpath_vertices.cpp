@@ -7,6 +7,7 @@ namespace etendue {
 
 void SubpathVertices::reset(const AovSet* aovs) {
     vertices_.clear();
+    interiors_.clear();
     connectible_.clear();
     matte_ends_.clear();
     words_.reset(aovs);
@@ -20,6 +21,17 @@ const PathVertex& SubpathVertices::whole(std::uint32_t place) {
         vertex.surface.emplace(*vertex.matte, Frame::from_normal(end.normal), end.geometric_normal, vertex.wo);
     }
     return vertex;
+}
+
+Rgb SubpathVertices::transmittance(const World& world, const PathVertex& vertex, const Ray& ray, float distance,
+                                   RayEnds ends) const {
+    if (interiors_.empty()) {
+        const HomogeneousMedium* medium = vertex.medium(ray.direction);
+        return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+    }
+    const SideInteriors& sides = interiors_[static_cast<std::size_t>(&vertex - vertices_.data())];
+    const bool is_outside = dot(ray.direction, vertex.geometric_normal) > 0.0f;
+    return world.media().transmittance(is_outside ? sides.outside : sides.inside, ray, ends);
 }
 
 WordRange SubpathVertices::words_after(const PathVertex& vertex, const Vec3f& w) {
@@ -62,7 +74,7 @@ void SubpathVertices::place(const World& world, const SurfacePoint& point, float
 }
 
 std::size_t SubpathVertices::bytes() const {
-    return vector_bytes(vertices_, connectible_, matte_ends_) + bsdfs_.size() * sizeof(Bsdf);
+    return vector_bytes(vertices_, interiors_, connectible_, matte_ends_) + bsdfs_.size() * sizeof(Bsdf);
 }
 
 }  // namespace etendue

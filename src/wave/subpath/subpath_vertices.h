@@ -17,6 +17,11 @@
 
 namespace etendue {
 
+/// Holds the bodies on the front and on the back of a vertex; in a medium both are alike.
+struct SideInteriors {
+    Interior outside, inside;
+};
+
 /// Keeps the vertices of a wave of subpaths, in the order of their bounces, with the lobes and words that they point
 /// to, and what connections of plain matte vertices need.
 class SubpathVertices {
@@ -41,6 +46,10 @@ class SubpathVertices {
     [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
         return matte_ends_[vertex.vertex];
     }
+    /// Returns the share of light, [0, 1], that gets past media between the ends of `ray`, `distance` metres apart,
+    /// which starts at `vertex`, one of `all`.
+    [[nodiscard]] Rgb transmittance(const World& world, const PathVertex& vertex, const Ray& ray, float distance,
+                                    RayEnds ends = RayEnds::InScene) const;
     /// Returns the words of the subpaths as they arrive at their vertices.
     [[nodiscard]] PathWords& words() { return words_; }
     /// Returns the words of a subpath that goes on from `vertex` along `w`, for a connection; they last until the next
@@ -49,6 +58,9 @@ class SubpathVertices {
 
     /// Stores the next vertex, with what `state` knows of it.
     PathVertex& store(SubpathState& state);
+    /// Keeps the bodies on both sides of the vertex just stored, which `transmittance` asks for where there are clear
+    /// ones.
+    void keep_interiors(const SideInteriors& interiors) { interiors_.push_back(interiors); }
     /// Puts the vertex just stored among those that can be connected. `state` is the subpath's before it scatters.
     void list_connectible(const SubpathState& state, int next_edges, float merged = 0.0f);
     /// Puts `vertex` on the surface at `point`, with lobes for the index `relative_ior` as in Materials::bsdf.
@@ -72,6 +84,7 @@ class SubpathVertices {
     SubpathEnd end_;
     bool makes_matte_ends_;
     std::vector<PathVertex> vertices_;
+    std::vector<SideInteriors> interiors_;  ///< of each vertex; empty without clear bodies
     std::vector<ConnectibleVertex> connectible_;
     std::vector<MatteEnd> matte_ends_;
     PathWords words_;

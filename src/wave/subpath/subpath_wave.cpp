@@ -258,8 +258,8 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
 bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
     const SurfacePoint& point = path.point;
     const BsdfSample& sample = path.sample;
-    if (point.material->is_pane && sample.is_delta && sample.is_transmission && !is_black(sample.weight)) {
-        pass_pane(i, path);
+    if (goes_straight_on(*point.material, sample) && !is_black(sample.weight)) {
+        pass_straight(i, path);
         return true;
     }
     if (path.ends_here) {
@@ -285,12 +285,13 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     return true;
 }
 
-void SubpathWave::pass_pane(std::size_t i, const ShadedSubpath& path) {
+void SubpathWave::pass_straight(std::size_t i, const ShadedSubpath& path) {
     SubpathState& state = states_[i];
     const SurfacePoint& point = path.point;
     state.throughput *= path.sample.weight;
     state.is_direct = vertices_[path.vertex].is_reached_directly;
     rays_[i].origin = offset_origin(point.position, point.geometric_normal, point.clearance, rays_[i].direction);
+    if (path.crossing) interiors_[i] = beyond(*path.crossing, point, rays_[i].direction);
 }
 
 bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
@@ -309,6 +310,7 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     vertex.position = position;
     vertex.wo = wo;
     vertex.outside = vertex.inside = medium;
+    if (job.world().traits().has_clear_bodies) vertices_.keep_interiors({interiors_[i], interiors_[i]});
     vertex.densities = arrive(job, i, vertex.position, 1.0);
     vertex.next_edges = state.edges;
     vertices_.list_connectible(state, state.edges);

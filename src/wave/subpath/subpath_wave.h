@@ -47,7 +47,7 @@ struct ShadedSubpath {
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
     std::uint32_t vertex = PathVertex::kNoVertex;  ///< place of the vertex that was stored for it
-    bool ends_here = false;  ///< it is as long as it may be, and can only go straight through a pane
+    bool ends_here = false;  ///< it is as long as it may be, and can only go straight through a clear surface
     BsdfSample sample;       ///< unless plain
 };
 
@@ -101,8 +101,8 @@ class SubpathWave {
     /// Samples the BSDFs of the first `vertices` in `on_surface_`.
     void sample_bsdfs(std::size_t first, std::size_t vertices);
     bool scatter_in_medium(const SubpathJob& job, std::size_t i);
-    /// Takes the subpath straight through a pane, where it has no vertex.
-    void pass_pane(std::size_t i, const ShadedSubpath& path);
+    /// Takes the subpath straight through a clear surface, where it has no vertex.
+    void pass_straight(std::size_t i, const ShadedSubpath& path);
     /// Takes the subpath where the sample of the BSDF at its vertex says; false if it ends.
     bool scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path);
     bool scatter_at_plain(const SubpathJob& job, std::size_t i, const ShadedSubpath& path);

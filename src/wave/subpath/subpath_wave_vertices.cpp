@@ -6,10 +6,12 @@
 namespace etendue {
 
 void SubpathWave::pass_hidden(std::size_t i, const ShadedSubpath& path) {
-    // No connection passes a boundary.
-    states_[i].departing.is_connectible = false;
-    states_[i].is_direct = false;
     const SurfacePoint& point = path.point;
+    // Connections pass none but clear boundaries.
+    if (!point.material->is_clear) {
+        states_[i].departing.is_connectible = false;
+        states_[i].is_direct = false;
+    }
     Ray& ray = rays_[i];
     interiors_[i] = beyond(*path.crossing, point, ray.direction);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
@@ -30,7 +32,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
         return false;
     }
     path.ends_here = state.edges >= job.lengths.max_depth;
-    if (path.ends_here && !point.material->is_pane) {
+    if (path.ends_here && !point.material->is_clear) {
         end_path(job, i, PathEnding::TooLong);
         return false;
     }
@@ -63,6 +65,9 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
         vertex.outside = world.media().within(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.media().within(crossing->inside) : vertex.outside;
     }
+    if (world.traits().has_clear_bodies)
+        vertices_.keep_interiors(
+            {crossing ? crossing->outside : interiors_[i], crossing ? crossing->inside : interiors_[i]});
     const double merged = path.plain != nullptr
                               ? path.arrived.merged(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]))
                               : 0.0;
@@ -76,14 +81,15 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
     }
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
     path.ends_here = true;
-    if (point.material->is_pane) return true;
+    if (point.material->is_clear) return true;
     end_path(job, i, PathEnding::TooLong);
     return false;
 }
 
 bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex,
                                  double merged) {
-    if (!makes_matte_ends_ || vertex.outside != nullptr || vertex.is_dispersed) return false;
+    if (!makes_matte_ends_ || vertex.outside != nullptr || vertex.is_dispersed || job.world().traits().has_clear_bodies)
+        return false;
     // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
     const double fewer = path.arrived.fewer(job.mis.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
