@@ -1,6 +1,6 @@
 """The scenes of docs/gallery.md by name, each with a build() of its own."""
 
-from . import chess, cradle, glasses, interior, jewels, pool, racer, street
+from . import chess, cradle, glasses, interior, jewels, pool, racer, street, temple
 
 SCENES = {
     "glasses": glasses.build,
@@ -11,4 +11,5 @@ SCENES = {
     "chess": chess.build,
     "racer": racer.build,
     "cradle": cradle.build,
+    "temple": temple.build,
 }
