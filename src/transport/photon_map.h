@@ -16,8 +16,8 @@ namespace etendue {
 
 class PhotonMap {
   public:
-    /// Takes the photons of `lists`, and leaves nothing of each that it has taken, so that no photon is held twice.
-    /// Where a kernel finds several, their order depends on that of the lists alone.
+    /// Moves the photons out of `lists`, one list after the other, so that memory holds each photon once. Where a
+    /// kernel finds several, their order depends on that of the lists alone.
     PhotonMap(std::vector<std::vector<Photon>> lists, const MergeRadius& radius);
 
     [[nodiscard]] std::size_t size() const { return photons_.size(); }

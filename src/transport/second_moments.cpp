@@ -167,7 +167,7 @@ void ComparedSample::compare_met(ComparedLight& sum, LightOfPath& by_path) const
         const Met& other = unmerged_.met[i];
         light_met(unmerged, other.subpath, other.vertex, other.arrived,
                   [&](const StrategyLight& light) { of_bdpt.push_back(all_of(light.sums)); });
-        // Of the strategies with more vertices from the light, path tracing has s = 1 alone, which `a` counts.
+        // Path tracing has no strategy with s > 1: only `a`, which stands for s = 1, counts.
         Subpath sampled = other.subpath;
         sampled.departing.d = 0.0;
         light_met(unmerged, sampled, other.vertex, {.a = other.arrived.a},

@@ -51,7 +51,7 @@ LightSample sample_environment_above(const World& world, const Vec3f& point, con
 }  // namespace
 
 CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const Vec3f& wo, float time,
-                           const SampleNumbers& numbers) {
+                           const SampleNumbers& numbers, SampleTracer* tracer) {
     const Vec3f normal = dot(point.geometric_normal, wo) < 0.0f ? -point.geometric_normal : point.geometric_normal;
     const LightReceiver receiver(point.position, normal);
     const std::uint32_t environment = world.environment().light();
@@ -66,7 +66,7 @@ CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const 
         ray.alpha_key = alpha_key;
         ++shadow.rays;
         sum.all += static_cast<double>(average(irradiance));
-        sum.arriving += static_cast<double>(average(irradiance * visibility(world, ray)));
+        sum.arriving += static_cast<double>(average(irradiance * visibility(world, ray, tracer)));
     };
     const std::uint32_t alpha_key = numbers.bits(bounce_dimension(1, kAlpha));
     for (std::uint32_t round = 0; round < kCatcherSamples || (!(sum.all > 0.0) && round < kMostCatcherSamples);

@@ -3,6 +3,7 @@
 
 #include "sampling/sampler.h"
 #include "transport/dimensions.h"
+#include "transport/sample_tracer.h"
 #include "world/world.h"
 
 #include <cstdint>
@@ -20,8 +21,9 @@ struct CaughtShadow {
 
 /// Returns the share that surfaces take of the direct light that would arrive at `point` without them, on the side of
 /// `wo`: 1 less the irradiance with surfaces over that without. Both are estimated from one set of samples, which goes
-/// on for a while if it finds no light; where no light would arrive, the share is 0.
+/// on for a while if it finds no light; where no light would arrive, the share is 0. `tracer` traces the rays; null if
+/// the World does.
 [[nodiscard]] CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const Vec3f& wo, float time,
-                                         const SampleNumbers& numbers);
+                                         const SampleNumbers& numbers, SampleTracer* tracer = nullptr);
 
 }  // namespace etendue

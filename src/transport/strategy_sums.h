@@ -23,9 +23,9 @@ struct BasicStrategySums {
 
 using StrategySums = BasicStrategySums<double>;
 
-/// Returns the sums of a strategy that connects two vertices: `from_eye` is the density per area, 1/m², with which the
-/// eye's makes that of the light, `fewer_of_light` what SubpathDensities::fewer says of the latter, and the same the
-/// other way around.
+/// Returns the sums of a strategy that connects two vertices. `from_eye` is the density per area, 1/m², with which the
+/// eye's vertex makes the light's, `from_light` that of the way back; `fewer_of_light` and `fewer_of_eye` are what
+/// SubpathDensities::fewer says of each.
 template <typename T>
 [[nodiscard]] inline BasicStrategySums<T> sums_of_connection(const Raised& raised, T from_eye, T fewer_of_light,
                                                              T from_light, T fewer_of_eye) {

@@ -13,9 +13,8 @@
 
 namespace etendue {
 
-/// One contribution to the image, before any limit, other than what the eye sees of a light itself in a pixel whose
-/// middle shows it. Which path has brought it is found afterwards, by tracing its sample once more
-/// (render/brightest_paths.h).
+/// Holds one contribution to the image, before any limit, other than what the eye sees of a light itself. Which path
+/// has brought it is found afterwards, by tracing its sample once more (render/brightest_paths.h).
 struct BrightSample {
     static constexpr std::size_t kWordSize = 64;
 

@@ -1,4 +1,4 @@
-// The first step of every integrator that starts at the eye: camera rays for a run of samples of a tile.
+// How samples of a tile begin, as camera rays, and end, in pixels and layers.
 #pragma once
 
 #include "core/ray.h"

@@ -2,7 +2,7 @@
 
 #include "sampling/hash.h"
 #include "transport/scattered_cone.h"
-#include "wave/ray_batch.h"
+#include "wave/one_kind_tracer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,26 +54,6 @@ struct LampCollector {
     }
 };
 
-/// Traces and counts the rays of samples of images.
-class ImageTracer final : public SampleTracer {
-  public:
-    ImageTracer(const World& world, const TileJob& job, RenderCounters& counters)
-        : world_(world), job_(job), counters_(counters) {}
-
-    [[nodiscard]] Hit nearest_hit(const Ray& ray, int /*number*/) override {
-        return intersect_one(world_, job_, RayKind::LampImage, ray, counters_);
-    }
-    [[nodiscard]] std::uint8_t occluded(const Ray& ray) override {
-        return occluded_one(world_, job_, RayKind::LampImage, ray, counters_);
-    }
-    [[nodiscard]] bool finds_emission(const Hit&) const override { return false; }
-
-  private:
-    const World& world_;
-    const TileJob& job_;
-    RenderCounters& counters_;
-};
-
 }  // namespace
 
 DeltaBranch branch_along(const World& world, const TileJob& job, const Ray& ray, SampleKey key, SampleTracer* tracer) {
@@ -115,7 +95,7 @@ void LampImageSampler::start(const World& world, const TileJob& job, const PathL
 
 void LampImageSampler::sample(std::uint32_t first, std::uint32_t end, const HasSample& has_sample, const Add& add,
                               RenderCounters& counters) {
-    ImageTracer tracer(*world_, *job_, counters);
+    OneKindTracer tracer(*world_, *job_, RayKind::LampImage, counters);
     const PixelFilter& filter = *job_->filter;
     const float radius = filter.radius();
     const int beyond = static_cast<int>(std::ceil(radius + 0.5f));

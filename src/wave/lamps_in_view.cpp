@@ -349,8 +349,7 @@ void LampsInView::sample_images(TileBuffer& tile, RenderCounters& counters) {
 
 void LampsInView::finish(TileBuffer& tile, RenderCounters& counters) {
     if (images_.is_active()) sample_images(tile, counters);
-    if (!is_active_) return;
-    trace_neighbours(counters);
+    if (is_active_) trace_neighbours(counters);
     if (!met_.empty()) {
         look_at_middles(counters);
         // One order for a pixel's sums, whichever tile or crop its neighbours belong to.

@@ -31,7 +31,7 @@ inline void hide_unseen_hits(const World& world, std::span<const Ray> rays, std:
             hits[i] = {};
 }
 
-/// Answers for each ray as `SceneGeometry::occluded` does: kOccluded, kPassesPanes or kFree; `occluded` is as long as
+/// Answers for each ray as `SceneGeometry::occluded` does: kOccluded, kPassesClear or kFree; `occluded` is as long as
 /// `rays`.
 void occluded_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays,
                     std::span<std::uint8_t> occluded, RenderCounters& counters);

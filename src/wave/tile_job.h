@@ -36,9 +36,9 @@ struct TileJob {
     SampleSequence sequence = SampleSequence::Sobol;
     const PixelFilter* filter = nullptr;  ///< not null
     const AovSet* aovs = nullptr;         ///< contents of the tile's layers; null if it has none
-    /// Most that the largest component of an indirect contribution may have, as a sample of a pixel has it; hues are
-    /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
-    /// what lights it without another bounce. All other light is indirect.
+    /// Bounds the largest component of an indirect contribution to a sample, which is scaled, so that its hue stays.
+    /// Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and what
+    /// lights it without another bounce. All other light is indirect.
     float clamp_indirect = std::numeric_limits<float>::infinity();
     std::span<const PixelJob> pixels{};  ///< empty for all
     /// Says where subpaths of bidirectional methods merge; all samples have one index, time and wavelength then.

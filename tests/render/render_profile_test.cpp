@@ -125,6 +125,22 @@ TEST(RenderProfile, EveryShadowRayIsOfALightSampleInMediaToo) {
     }
 }
 
+TEST(RenderProfile, EveryShadowRayOfACatcherIsOfALightSample) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = scene.settings.film.height = 24;
+    MaterialDesc catcher = diffuse(Rgb(0.5f));
+    catcher.catches_shadows = true;
+    add_object(scene, sphere({0, 0, -3}, 1.0f, 16), add_material(scene, catcher));
+    add_object(scene, sphere({0, 3, 0}, 0.4f, 8), add_material(scene, emissive(Rgb(2.0f))));
+    const World world = compile(std::move(scene));
+    RenderProfile profile(1, 0);
+    RenderOptions options = options_for(24, 24, 16);
+    options.profile = &profile;
+    const std::uint64_t shadow_rays = render_now(world, "path", options, 1).counters.rays[RayKind::Shadow];
+    EXPECT_GT(shadow_rays, 0u);
+    EXPECT_LE(shadow_rays, profile.total().use().light_samples);
+}
+
 TEST(RenderProfile, IsOfAllThreads) {
     RenderProfile profile(2, 0);
     profile.wave(0).end_eye_path(PathEnding::Escaped, {.rays = 1});

@@ -143,8 +143,8 @@ class BdptWave final : public IntegratorScratch {
     ToLightLanes to_light_lanes_;
     ToCameraLanes to_camera_lanes_;
     BetweenLanes between_lanes_;
-    // That wait for their rays. What is computed at once waits by itself: which comes first of it and of the others of
-    // a sample would depend on what other samples are beside it, and not only where a queue fills.
+    // Queues of shadow rays. Connections that lanes compute have queues of their own, so that the order in which a
+    // sample's light is added does not depend on the samples beside it.
     ShadowRayQueue light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
     ShadowRayQueue camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
     ShadowRayQueue vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};

@@ -1,7 +1,7 @@
 // Connections of plain matte surfaces, each with its weight among the strategies and its ray.
 //
-// What strategy_sums.h says of any two vertices in double precision, here in that of lanes: ends whose densities that
-// does not hold are none (SubpathWave), and of matte surfaces all but the connection itself is known beforehand.
+// The weights of strategy_sums.h in single precision: SubpathWave makes a MatteEnd only where floats hold the
+// densities. All but the connection itself is known beforehand of matte surfaces.
 #pragma once
 
 #include "light/mesh_light.h"

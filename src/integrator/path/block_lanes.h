@@ -21,7 +21,7 @@ struct BlockLanes : SurfaceLanes {
     Column expected_samples;  ///< as in ChosenLight; 0 where `front` is not sampled
     Vec3Columns light_wi, light_end;
     Column light_distance;
-    Column light_pdf;        ///< the choice included; of a delta that alone; 0 if nothing arrives
+    Column light_pdf;        ///< of the sample, choice included, 1/sr; of a delta that of the choice; 0 without light
     Column light_by_chance;  ///< 1 where the BSDF's samples may find the light too, 0 for a delta
     RgbColumns light_radiance;
 

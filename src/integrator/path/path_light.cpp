@@ -170,6 +170,11 @@ void PathLight::evaluate(std::size_t k) {
     if (!is_black(light.radiance)) path.towards_light = path.scattering->evaluate(light.wi, TransportMode::Radiance);
 }
 
+void PathLight::count_light_samples(const TileJob& job, std::size_t slot, std::uint32_t samples) {
+    for (std::uint32_t i = 0; i < samples; ++i) found_.count_ray(static_cast<std::uint32_t>(slot));
+    if (job.profile != nullptr) job.profile->use().light_samples += samples;
+}
+
 void PathLight::add_environment(const PathContext& context) {
     const World& world = context.world;
     const bool is_shown = !world.environment().met(true).empty();
@@ -187,13 +192,14 @@ void PathLight::add_environment(const PathContext& context) {
         meeting.add(k);
     }
     if (meeting.empty()) return;
-    if (context.job.profile != nullptr && context.rays > 1) context.job.profile->use().bsdf_met_light += meeting.size();
     std::array<EnvironmentRadiance, kBlockLanes> met;
     world.environment().look(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
     for (std::size_t m = 0; m < meeting.size(); ++m) {
         const std::size_t i = block_.first + meeting[m];
         const float weight = weight_from_afar(context, i, world.environment().light(), met[m].pdf_solid_angle);
         add(i, met[m].radiance * weight, paths_.words.environment_source());
+        if (context.job.profile != nullptr && context.rays > 1 && !is_black(met[m].radiance))
+            ++context.job.profile->use().bsdf_met_light;
     }
 }
 

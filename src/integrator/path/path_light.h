@@ -16,8 +16,7 @@
 namespace etendue {
 
 /// Finds the light of a wave's paths: what they meet, and what is sampled for them, with the shadow rays that tell
-/// whether it arrives. Where lights are sampled more than once, shadow rays are traced before they are more than a
-/// batch and a block's.
+/// whether it arrives. Holds at most one batch of shadow rays and those of one block.
 class PathLight {
   public:
     /// Keeps references to `paths` and `block`, which must outlive it.
@@ -38,6 +37,8 @@ class PathLight {
     /// Adds what the first `count` samples have found to `tile`.
     void finish(const TileJob& job, std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
+    /// Counts light samples that the sample in `slot` has taken with a shadow ray for each.
+    void count_light_samples(const TileJob& job, std::size_t slot, std::uint32_t samples);
     /// Gives the sample in `slot`, whose path carries no light, an alpha of its own.
     void set_alpha(std::size_t slot, float alpha) { alpha_[slot] = alpha; }
     /// Adds the light of the environment to paths of the block that have left the scene.

@@ -4,6 +4,7 @@
 #include "transport/roulette.h"
 #include "transport/shadow_catcher.h"
 #include "wave/aov/first_hits.h"
+#include "wave/one_kind_tracer.h"
 #include "wave/ray_batch.h"
 
 #include <algorithm>
@@ -65,13 +66,14 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
 
 void PathWave::catch_shadows(const World& world, const TileJob& job, std::size_t count, RenderCounters& counters) {
     const bool shows_environment = !world.environment().met(true).empty();
+    OneKindTracer tracer(world, job, RayKind::Shadow, counters);
     for (std::size_t i = 0; i < count; ++i) {
         if (!world.materials().catches_shadows(paths_.hits[i])) continue;
         const Ray ray = paths_.ray(i);
         const SurfacePoint point = world.geometry().surface_point(paths_.hits[i]);
         const CaughtShadow shadow =
-            caught_shadow(world, point, -ray.direction, ray.time, {job.sequence, paths_.key(i)});
-        counters.rays[RayKind::Shadow] += shadow.rays;
+            caught_shadow(world, point, -ray.direction, ray.time, {job.sequence, paths_.key(i)}, &tracer);
+        light_.count_light_samples(job, i, shadow.rays);
         paths_.hits[i] = {};
         paths_.throughput.set(i, Rgb(shows_environment ? 1.0f - shadow.share : 0.0f));
         if (!shows_environment) light_.set_alpha(i, shadow.share);

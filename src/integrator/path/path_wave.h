@@ -13,7 +13,7 @@
 
 namespace etendue {
 
-/// Orders the stages that paths go through: about 250 bytes a path with its shadow ray, 50 more where lights are chosen
+/// Orders the stages that paths go through: about 250 bytes a path with its shadow ray, 64 more where lights are chosen
 /// by what they light.
 class PathWave final : public IntegratorScratch {
   public:

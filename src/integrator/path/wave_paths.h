@@ -38,8 +38,8 @@ struct WavePaths : PathColumns {
     /// Takes the words of path `i` past a vertex that scatters as `event`.
     void follow(std::size_t i, const VertexEvent& event) { ranges[i] = words.scatter_from_eye(ranges[i], event); }
 
-    /// Returns how many light samples path `i` has: where it is, if nothing but deltas has scattered it yet
-    /// (`kOnlyDeltas`), or where its ray comes from, if nothing else had there (`kIsDirect`).
+    /// Returns the number of light samples at one vertex of path `i`: at the one that it has reached if `first_vertex`
+    /// is kOnlyDeltas, at the one before if it is kIsDirect.
     [[nodiscard]] std::uint32_t light_samples(const PathContext& context, std::size_t i,
                                               std::uint32_t first_vertex) const {
         return is(first_vertex, i) ? context.settings.light_samples : 1u;

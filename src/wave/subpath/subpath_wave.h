@@ -28,7 +28,7 @@ namespace etendue {
 class LightFinder {
   public:
     virtual ~LightFinder() = default;
-    /// `arrived` is for the point as a vertex.
+    /// `arrived` holds the densities with which the subpath arrives at `point`.
     virtual void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                             const SubpathDensities& arrived) = 0;
     virtual void on_unlit(const SubpathState& state, const SurfacePoint& point) = 0;
@@ -43,7 +43,7 @@ class LightFinder {
 struct ShadedSubpath {
     SurfacePoint point;           ///< surface point; for a plain surface its material only
     const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `MatteLanes`
-    std::size_t lane = 0;         ///< lane of a plain surface in `MatteLanes`
+    std::size_t lane = 0;         ///< lane of the surface, which plain ones have in `MatteLanes`
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
     std::uint32_t vertex = PathVertex::kNoVertex;  ///< place of the vertex that was stored for it
@@ -84,7 +84,7 @@ class SubpathWave {
                        std::size_t& kept);
     /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
     bool set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
-    /// Finds the points of the block's subpaths on plain surfaces, all at once.
+    /// Finds and turns the points of the block's subpaths on plain surfaces, with what matte ends hold, all at once.
     void set_up_plain();
     /// Computes with which densities the block's subpaths arrive at surfaces.
     void arrive_at_surfaces(const SubpathJob& job, std::size_t first);

@@ -1,0 +1,31 @@
+// The rays of scalar algorithms that stand for one kind of a wide integrator's rays.
+#pragma once
+
+#include "transport/sample_tracer.h"
+#include "wave/ray_batch.h"
+#include "wave/render_counters.h"
+
+namespace etendue {
+
+/// Traces rays one by one and counts them as of one kind.
+class OneKindTracer final : public SampleTracer {
+  public:
+    OneKindTracer(const World& world, const TileJob& job, RayKind kind, RenderCounters& counters)
+        : world_(world), job_(job), kind_(kind), counters_(counters) {}
+
+    [[nodiscard]] Hit nearest_hit(const Ray& ray, int /*number*/) override {
+        return intersect_one(world_, job_, kind_, ray, counters_);
+    }
+    [[nodiscard]] std::uint8_t occluded(const Ray& ray) override {
+        return occluded_one(world_, job_, kind_, ray, counters_);
+    }
+    [[nodiscard]] bool finds_emission(const Hit&) const override { return false; }
+
+  private:
+    const World& world_;
+    const TileJob& job_;
+    RayKind kind_;
+    RenderCounters& counters_;
+};
+
+}  // namespace etendue
