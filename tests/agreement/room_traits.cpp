@@ -52,7 +52,11 @@ void add_media_rooms(std::vector<RoomTraits>& rooms) {
                 for (const RoomCamera camera : {RoomCamera::Pinhole, RoomCamera::Orthographic}) {
                     // What is infinitely far away is in no body.
                     if (light == RoomLight::Environment && light_is_in(place)) continue;
-                    rooms.push_back({.light = light, .camera = camera, .medium = medium, .place = place});
+                    // Light paths through the cloud come to the ball from everywhere: leaning normals would make a few
+                    // of their splats very bright.
+                    const BodyNormals normals = place == MediumPlace::Between ? BodyNormals::Flat : BodyNormals::Smooth;
+                    rooms.push_back(
+                        {.light = light, .normals = normals, .camera = camera, .medium = medium, .place = place});
                 }
 }
 
