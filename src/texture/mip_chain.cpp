@@ -363,6 +363,30 @@ Texel MipChain::mean() const {
         values_);
 }
 
+TexelRange MipChain::range() const {
+    return with_texels([&]<int Channels>(const auto* values, std::integral_constant<int, Channels>) {
+        using Value = std::remove_cvref_t<decltype(*values)>;
+        // A multiple of any number of channels, so that compilers compare many values at once.
+        constexpr std::size_t kBlock = 48;
+        const std::size_t count = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()) * Channels;
+        std::array<Value, kBlock> least, greatest;
+        for (std::size_t j = 0; j < kBlock; ++j) least[j] = greatest[j] = values[j % Channels];
+        const auto take = [&](std::size_t j, const Value& value) {
+            least[j] = std::min(least[j], value);
+            greatest[j] = std::max(greatest[j], value);
+        };
+        std::size_t i = 0;
+        for (; i + kBlock <= count; i += kBlock)
+            for (std::size_t j = 0; j < kBlock; ++j) take(j, values[i + j]);
+        for (; i < count; ++i) take(i % kBlock, values[i]);
+        for (std::size_t j = 0; j < kBlock; ++j) {
+            take(j % Channels, least[j]);
+            take(j % Channels, greatest[j]);
+        }
+        return TexelRange{read_texel<Channels>(least.data()), read_texel<Channels>(greatest.data())};
+    });
+}
+
 std::size_t MipChain::bytes() const {
     return std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, values_) +
            slope_covariances_.size() * sizeof(Float16);

@@ -23,6 +23,11 @@ namespace etendue {
 /// Bytes that a normal map of this size takes to keep its slopes' covariances.
 [[nodiscard]] std::uint64_t slope_covariance_bytes(int width, int height);
 
+/// Bounds the texels of an image, channel by channel, linear.
+struct TexelRange {
+    Texel least, greatest;
+};
+
 /// Says which levels a chain has, and how those that are not given are averaged.
 enum class MipLevels {
     All,         ///< over the texels' areas
@@ -53,6 +58,9 @@ class MipChain {
 
     /// Mean of rgb and of alpha over all texels of the image, linear.
     [[nodiscard]] Texel mean() const;
+
+    /// Returns the least and the greatest value of each channel of the image.
+    [[nodiscard]] TexelRange range() const;
 
     /// A level whose texels are 8 bits a channel.
     struct Level8 {

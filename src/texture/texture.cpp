@@ -77,6 +77,11 @@ Texel Texture::mean() const {
     return std::visit([](const auto& texels) { return texels.mean(); }, texels_);
 }
 
+std::optional<TexelRange> Texture::range() const {
+    const auto* const chain = std::get_if<MipChain>(&texels_);
+    return chain != nullptr ? std::optional(chain->range()) : std::nullopt;
+}
+
 int Texture::width() const {
     return std::visit([](const auto& texels) { return texels.width(); }, texels_);
 }

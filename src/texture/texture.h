@@ -8,6 +8,7 @@
 #include "texture/texture_options.h"
 
 #include <cstddef>
+#include <optional>
 #include <variant>
 
 namespace etendue {
@@ -40,6 +41,8 @@ class Texture {
 
     /// Mean of rgb and of alpha over the image, linear.
     [[nodiscard]] Texel mean() const;
+    /// Returns the least and the greatest value of each channel; nothing if its texels come through a cache.
+    [[nodiscard]] std::optional<TexelRange> range() const;
 
     /// Returns the texels if they are 8 bits each in memory and read between texels and between levels; else null.
     [[nodiscard]] const MipChain* usual_texels() const;

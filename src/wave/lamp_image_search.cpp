@@ -116,7 +116,7 @@ class ImageFinder {
         world_.geometry().intersect(rays_, hits_, Coherence::Coherent, QueryForm::Best, RayEnds::AtCamera);
         ways_.assign(count, 0);
         for (std::size_t i = 0; i < count; ++i)
-            if (hits_[i].valid() && is_specular(*world_.materials().at(hits_[i]))) {
+            if (hits_[i].valid() && world_.materials().at(hits_[i])->is_specular) {
                 find_ends(points_[i], ends_);
                 for (const DeltaEnd& end : ends_) ways_[i] = hash_combine(ways_[i], end.way);
             }

@@ -87,6 +87,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     compile_materials(scene, textures, data);
     end_phase("materials");
     compile_textures(scene, textures, threads, data, problems);
+    find_specular_materials(data);
     end_phase("textures");
     compile_geometry(scene, threads, options.most_copied_triangles, data);
     compile_bodies(scene, data, problems);

@@ -1,9 +1,13 @@
+#include "bsdf/bsdf.h"
+#include "bsdf/dielectric_body.h"
 #include "bsdf/ggx.h"
 #include "bsdf/measured_metals.h"
 #include "world/compile_parts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace etendue {
 
@@ -177,6 +181,48 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     return material;
 }
 
+/// Finds the least roughness of materials; looks at each texture once.
+class LeastRoughness {
+  public:
+    explicit LeastRoughness(const WorldData& data) : data_(data) {}
+
+    [[nodiscard]] float of_base(const GltfModel& model) {
+        if (is_smooth(model.roughness)) return model.roughness;
+        if (model.glossiness)
+            return model.roughness * (1.0f - *model.glossiness * range(model.specular_color_texture).greatest.alpha);
+        return model.roughness * range(model.metallic_roughness_texture).least.rgb.g;
+    }
+    [[nodiscard]] float of_coat(const GltfLayers& layers) {
+        if (is_smooth(layers.clearcoat_roughness)) return layers.clearcoat_roughness;
+        return layers.clearcoat_roughness * range(layers.clearcoat_roughness_texture).least.rgb.g;
+    }
+
+  private:
+    [[nodiscard]] TexelRange range(const TextureSlot& slot) {
+        const Texel black{Rgb(0.0f), 0.0f}, white{Rgb(1.0f), 1.0f};
+        if (!slot.valid()) return {white, white};
+        auto known = ranges_.find(slot.texture);
+        if (known == ranges_.end())
+            known = ranges_.emplace(slot.texture, data_.textures[static_cast<std::size_t>(slot.texture)].range()).first;
+        return known->second.value_or(TexelRange{black, white});
+    }
+
+    const WorldData& data_;
+    std::map<std::int32_t, std::optional<TexelRange>> ranges_;  ///< by texture
+};
+
+bool is_specular(const Material& material, LeastRoughness& roughness) {
+    if (material.unlit) return false;
+    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model))
+        return !has_non_delta(*constant) && !material.is_clear;
+    const GltfModel& model = std::get<GltfModel>(material.model);
+    const bool mirrors = model.refracts ? bends_light(model.ior) : model.specular > 0.0f;
+    if (material.is_clear && !model.layers && model.transmission == 1.0f && !mirrors && model.metallic == 0.0f)
+        return false;  // light goes straight on
+    return is_smooth(roughness.of_base(model)) ||
+           (model.layers && model.layers->clearcoat > 0.0f && is_smooth(roughness.of_coat(*model.layers)));
+}
+
 }  // namespace
 
 void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data) {
@@ -192,6 +238,11 @@ void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldD
         data.materials.back().filling = static_cast<std::uint32_t>(data.fillings.size());
         data.fillings.push_back(*filling);
     }
+}
+
+void find_specular_materials(WorldData& data) {
+    LeastRoughness roughness(data);
+    for (Material& material : data.materials) material.is_specular = is_specular(material, roughness);
 }
 
 }  // namespace etendue

@@ -73,6 +73,10 @@ class TextureCompiler {
 /// Materials and what fills their bodies, in place of those that are there. Needs the working space in `data`.
 void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data);
 
+/// Tells which materials mirror or refract without roughness, by the least of their textures; of textures that come
+/// through a cache nothing is known, so that they may. Needs materials and textures in `data`.
+void find_specular_materials(WorldData& data);
+
 /// Returns what fills the closed surfaces of a material, if it has such.
 [[nodiscard]] std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709);
 

@@ -35,7 +35,7 @@ std::vector<AimSphere> specular_spheres(const WorldData& data) {
     for (const Instance& instance : data.instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
-            if (is_specular(data.materials[geometry.material])) spheres.push_back(sphere_around(geometry, instance));
+            if (data.materials[geometry.material].is_specular) spheres.push_back(sphere_around(geometry, instance));
         }
     return spheres;
 }

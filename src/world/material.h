@@ -115,7 +115,8 @@ struct Material {
     /// a thin sheet without roughness, or bounds a body whose index is that of vacuum.
     bool is_clear = false;
 
-    bool unlit = false;  ///< shows its base colour to the eye and scatters nothing
+    bool is_specular = false;  ///< mirrors or refracts without roughness, somewhere at least
+    bool unlit = false;        ///< shows its base colour to the eye and scatters nothing
     TextureSlot normal_texture;
     float normal_scale = 1.0f;
 
@@ -141,8 +142,5 @@ struct Material {
                                              : &anisotropy_texture;
     }
 };
-
-/// Returns whether the material mirrors or refracts without roughness; textured roughness is taken not to reach zero.
-[[nodiscard]] bool is_specular(const Material& material);
 
 }  // namespace etendue

@@ -1,8 +1,5 @@
 #include "world/scene_traits.h"
 
-#include "bsdf/bsdf.h"
-#include "bsdf/dielectric_body.h"
-#include "bsdf/ggx.h"
 #include "world/embree_scene.h"
 #include "world/light_emitter.h"
 #include "world/light_sampler.h"
@@ -12,22 +9,8 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <variant>
 
 namespace etendue {
-
-bool is_specular(const Material& material) {
-    if (material.unlit) return false;
-    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model))
-        return !has_non_delta(*constant) && !material.is_clear;
-    const GltfModel& model = std::get<GltfModel>(material.model);
-    const bool mirrors = model.refracts ? bends_light(model.ior) : model.specular > 0.0f;
-    if (material.is_clear && !model.layers && model.transmission == 1.0f && !mirrors && model.metallic == 0.0f)
-        return false;  // light goes straight on
-    return model.roughness * model.roughness < kSmoothAlpha ||
-           (model.layers && model.layers->clearcoat > 0.0f &&
-            model.layers->clearcoat_roughness * model.layers->clearcoat_roughness < kSmoothAlpha);
-}
 
 SceneTraits find_traits(const WorldData& data, const Media& media, const LightSampler& lights,
                         const LightEmitter& emitters) {
@@ -51,7 +34,7 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.film_wraps = film_wraps(data.camera);
     traits.has_blind_film = has_blind_film(data.camera);
     traits.clips_far = !std::isinf(clip_of(data.camera).end);
-    traits.has_specular_surfaces = has_surface(is_specular);
+    traits.has_specular_surfaces = has_surface([](const Material& material) { return material.is_specular; });
     traits.has_unlit_surfaces = has_surface([](const Material& material) { return material.unlit; });
     traits.has_emitting_surfaces = has_surface([](const Material& material) { return material.emits; });
     traits.hides_surfaces = has_surface([](const Material& material) { return !material.visible_to_camera; });

@@ -153,6 +153,29 @@ TEST(Texture, TheMeanIsOfLinearValues) {
     EXPECT_NEAR(mean.alpha, 0.1, 1e-6);
 }
 
+TEST(Texture, TheRangeIsOfEachChannelOfTheImage) {
+    // More values than are compared at once, and some beside.
+    ImageF image(5, 11, 4);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 0.25f + 1e-4f * static_cast<float>(i % 97);
+    image.pixel(4, 10)[1] = 0.125f;
+    image.pixel(2, 3)[0] = 0.75f;
+    image.pixel(4, 10)[3] = 2.0f;
+    const auto range = make_texture(std::move(image), {}).range();
+    ASSERT_TRUE(range);
+    EXPECT_EQ(range->least.rgb.g, 0.125f);
+    EXPECT_NEAR(range->least.rgb.r, 0.25f, 5e-4f);
+    EXPECT_EQ(range->greatest.rgb.r, 0.75f);
+    EXPECT_NEAR(range->greatest.rgb.g, 0.26f, 5e-4f);
+    EXPECT_EQ(range->greatest.alpha, 2.0f);
+    const auto grey = make_texture(bytes(3, 1, 1, {255, 51, 102}), {}).range();
+    EXPECT_FLOAT_EQ(grey->least.rgb.g, 0.2f);
+    EXPECT_FLOAT_EQ(grey->greatest.rgb.g, 1.0f);
+    EXPECT_EQ(grey->greatest.alpha, 1.0f);
+    const auto color = make_texture(bytes(2, 1, 3, {0, 100, 200, 50, 60, 70}), {.encoding = Encoding::Srgb}).range();
+    EXPECT_NEAR(color->least.rgb.g, srgb_to_linear(60), 1e-6);
+    EXPECT_NEAR(color->greatest.rgb.b, srgb_to_linear(200), 1e-6);
+}
+
 TEST(Texture, KeepsTheFilesDepthForAllLevels) {
     // 4 × 2, 2 × 1 and 1 × 1 texels.
     EXPECT_EQ(make_texture(Image8(4, 2, 3), {}).bytes(), 33u);

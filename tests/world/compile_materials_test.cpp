@@ -2,7 +2,10 @@
 #include "world/compile_parts.h"
 #include "world/test_scene.h"
 
+#include <array>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include <gtest/gtest.h>
@@ -96,6 +99,73 @@ TEST(CompileMaterials, BlackEmissionIsNone) {
     desc.emissive = Rgb(1.0f);
     desc.emissive_strength = 0.0f;
     EXPECT_FALSE(compile_one(desc).emits);
+}
+
+/// Holds a quad of plastic in front of the camera, and a texture of four texels for it.
+class TexturedQuad {
+  public:
+    TexturedQuad() : path_(temporary_file("roughness.png")), scene_(empty_scene()) { material_.metallic = 0.0f; }
+    TexturedQuad(const TexturedQuad&) = delete;
+    TexturedQuad& operator=(const TexturedQuad&) = delete;
+    ~TexturedQuad() { std::filesystem::remove(path_); }
+
+    [[nodiscard]] MaterialDesc& material() { return material_; }
+    [[nodiscard]] SceneDesc& scene() { return scene_; }
+    /// Returns a texture whose last texel has these channels, and the others 0.5 in all.
+    [[nodiscard]] TextureRef texture(const std::array<int, 4>& last) {
+        constexpr std::array<int, 4> kHalf{128, 128, 128, 128};
+        TextureRef ref;
+        ref.texture = add_texture(scene_, path_, 2, {kHalf, kHalf, kHalf, last});
+        return ref;
+    }
+    [[nodiscard]] bool is_specular() const {
+        SceneDesc scene = scene_;
+        add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, material_));
+        return compile(std::move(scene)).traits().has_specular_surfaces;
+    }
+
+  private:
+    std::filesystem::path path_;
+    SceneDesc scene_;
+    MaterialDesc material_;
+};
+
+TEST(SpecularMaterials, AreSmoothSomewhereByTheirTexture) {
+    TexturedQuad smooth;
+    EXPECT_FALSE(smooth.is_specular());
+    smooth.material().metallic_roughness_texture = smooth.texture({255, 0, 255, 255});
+    EXPECT_TRUE(smooth.is_specular());
+    TexturedQuad rough;
+    rough.material().metallic_roughness_texture = rough.texture({0, 255, 0, 0});
+    EXPECT_FALSE(rough.is_specular());
+    rough.scene().settings.texture_memory = 0;
+    EXPECT_TRUE(rough.is_specular()) << "nothing is known of what a cache will read";
+}
+
+TEST(SpecularMaterials, AreSmoothByTheirGlossiness) {
+    TexturedQuad glossy;
+    glossy.material().glossiness = 1.0f;
+    EXPECT_TRUE(glossy.is_specular());
+    glossy.material().glossiness = 0.5f;
+    EXPECT_FALSE(glossy.is_specular());
+    glossy.material().glossiness = 1.0f;
+    glossy.material().specular_color_texture = glossy.texture({255, 255, 255, 100});
+    EXPECT_FALSE(glossy.is_specular());
+    TexturedQuad somewhere;
+    somewhere.material().glossiness = 1.0f;
+    somewhere.material().specular_color_texture = somewhere.texture({0, 0, 0, 255});
+    EXPECT_TRUE(somewhere.is_specular());
+}
+
+TEST(SpecularMaterials, AreSmoothByTheirCoat) {
+    TexturedQuad coated;
+    coated.material().clearcoat.factor = 1.0f;
+    coated.material().clearcoat.roughness = 1.0f;
+    EXPECT_FALSE(coated.is_specular());
+    coated.material().clearcoat.roughness_texture = coated.texture({255, 0, 255, 255});
+    EXPECT_TRUE(coated.is_specular());
+    coated.material().clearcoat.factor = 0.0f;
+    EXPECT_FALSE(coated.is_specular());
 }
 
 TEST(CompileMaterials, TexturesAreSharedByUseOnly) {
