@@ -61,10 +61,11 @@ class PilotFilm {
         pixels_[pixel].of_all[index % 2] += light.light;
     }
 
-    /// Returns the mean squared relative error of an image with one sample per pixel, for `samples` of each pixel here.
-    [[nodiscard]] PerIntegrator<double> errors(double samples) const {
+    /// Puts the mean squared relative error of an image with one sample per pixel into `findings`, for `samples` of
+    /// each pixel here.
+    void find_errors(double samples, PilotFindings& findings) const {
         const double of_half = 0.5 * samples;
-        PerIntegrator<double> sums{};
+        PerIntegrator<VarianceSum> sums{};
         for (int y = 0; y < height_; ++y)
             for (int x = 0; x < width_; ++x) {
                 const Pixel& pixel = pixels_[index(x, y)];
@@ -76,12 +77,14 @@ class PilotFilm {
                     // rare in each pixel.
                     const auto& halves = i == 0 ? pixel.of_all : pixel.of_samples;
                     const double squared_mean = (halves[0] / of_half) * (halves[1] / of_half);
-                    sums[i] +=
-                        scale * (pixel.sum.moments[i] / samples - squared_mean + kRenderSamples * missed * missed);
+                    sums[i].add(scale *
+                                (pixel.sum.moments[i] / samples - squared_mean + kRenderSamples * missed * missed));
                 }
             }
-        for (double& sum : sums) sum /= static_cast<double>(pixels_.size());
-        return sums;
+        for (std::size_t i = 0; i < kComparedCount; ++i) {
+            findings.errors[i] = sums[i].mean(static_cast<double>(pixels_.size()));
+            findings.is_told[i] = sums[i].is_told();
+        }
     }
 
   private:
@@ -192,7 +195,8 @@ PilotFindings run_pilot(const World& world, const IntegratorSettings& settings, 
     for (std::uint32_t index = 0; index < kPilotSamples; ++index)
         work.add(take_samples(world, settings, job, index, threads, film));
     const double count = static_cast<double>(job.rect.area()) * kPilotSamples;
-    PilotFindings findings{.errors = film.errors(kPilotSamples), .work = work};
+    PilotFindings findings{.work = work};
+    film.find_errors(kPilotSamples, findings);
     const auto mean = [&](double sum) { return sum / count; };
     const double path = kSampleCost + mean(work.eye_rays) + kLightSampleCost * mean(work.light_samples);
     const double bdpt = path + kLightRayCost * mean(work.light_rays) + kConnectionCost * mean(work.connections);

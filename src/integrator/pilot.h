@@ -6,13 +6,33 @@
 #include "transport/second_moments.h"
 #include "world/world.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string_view>
 
 namespace etendue {
 
+/// Sums estimates of variances, each right in the mean but some of them negative.
+struct VarianceSum {
+    double sum = 0.0;
+    double squares = 0.0;
+
+    void add(double estimate) {
+        sum += estimate;
+        squares += estimate * estimate;
+    }
+    /// Returns the mean of all `count` estimates, or what it would be off by if there were no variance, where that is
+    /// more: less cannot be told from nothing. Estimates of which none is negative have their mean.
+    [[nodiscard]] double mean(double count) const { return std::max(sum, std::sqrt(squares)) / count; }
+    /// Returns false if the estimates tell no more than a bound.
+    [[nodiscard]] bool is_told() const { return sum > 0.0 && sum >= std::sqrt(squares); }
+};
+
 /// Holds what a pilot has found, by integrator.
 struct PilotFindings {
     PerIntegrator<double> errors{};  ///< mean squared relative error of an image with one sample per pixel
+    PerIntegrator<bool> is_told{};   ///< false: the error is a bound, since samples tell too little
     PerIntegrator<double> costs{};   ///< processor time of a sample, in those of a ray of `path`
     SampleWork work{};               ///< work of a sample, mean
 

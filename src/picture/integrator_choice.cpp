@@ -28,17 +28,39 @@ std::string times(double ratio) {
 
 /// Returns the sentence that says why `findings` have `best` chosen of `integrators`.
 std::string reason_for(const PilotFindings& findings, std::size_t best, const std::vector<std::size_t>& integrators) {
-    std::string others;
+    if (integrators.size() == 1)
+        return fmt::format("'{}', which alone serves what is asked for", kComparedNames.at(best));
+    const auto add = [](std::string& list, const std::string& item) { list += (list.empty() ? "" : " and ") + item; };
+    std::string told;
+    std::string untold;
     for (const std::size_t other : integrators) {
-        if (other == best) continue;
-        others += fmt::format("{}'{}' takes {} times", others.empty() ? "" : " and ", kComparedNames.at(other),
-                              times(findings.time_to_error(other) / findings.time_to_error(best)));
+        const std::string name = fmt::format("'{}'", kComparedNames.at(other));
+        if (!findings.is_told.at(other))
+            add(untold, name);
+        else if (other != best)
+            add(told, fmt::format("{} takes {}{} times", name, findings.is_told.at(best) ? "" : "at least ",
+                                  times(findings.time_to_error(other) / findings.time_to_error(best))));
     }
-    if (others.empty()) return fmt::format("'{}', which alone serves what is asked for", kComparedNames.at(best));
-    return fmt::format("'{}': for as little noise {} as long", kComparedNames.at(best), others);
+    std::string reason = fmt::format("'{}'", kComparedNames.at(best));
+    if (!told.empty()) reason += fmt::format(": for as little noise {} as long", told);
+    if (!untold.empty())
+        reason += fmt::format("{} a pilot's few samples tell too little of the noise of {}", told.empty() ? ":" : ";",
+                              untold);
+    return reason;
 }
 
 }  // namespace
+
+// The pilot is small: of integrators that are about as good, the simplest is taken, and of two bounds neither is
+// better.
+IntegratorChoice choose_by(const PilotFindings& findings, const std::vector<std::size_t>& integrators) {
+    std::size_t best = integrators.front();
+    for (const std::size_t i : integrators)
+        if ((findings.is_told.at(i) || findings.is_told.at(best)) &&
+            kWorthwhile * findings.time_to_error(i) < findings.time_to_error(best))
+            best = i;
+    return {std::string(kComparedNames.at(best)), reason_for(findings, best, integrators)};
+}
 
 std::vector<std::string> integrators_to_choose(const RenderSettings& settings) {
     std::vector<std::string> integrators;
@@ -69,12 +91,7 @@ IntegratorChoice choose_integrator(const World& world, const RenderSettings& set
         return {integrators.front(),
                 fmt::format("'{}', since paths of so few edges need no other", integrators.front())};
     const FilmSettings& film = settings.film;
-    const PilotFindings findings = ray_code().run_pilot(world, settings.integrator, film.width, film.height, threads);
-    // The pilot is small: of integrators that are about as good, the simplest is taken.
-    std::size_t best = compared.front();
-    for (const std::size_t integrator : compared)
-        if (kWorthwhile * findings.time_to_error(integrator) < findings.time_to_error(best)) best = integrator;
-    return {std::string(kComparedNames.at(best)), reason_for(findings, best, compared)};
+    return choose_by(ray_code().run_pilot(world, settings.integrator, film.width, film.height, threads), compared);
 }
 
 }  // namespace etendue

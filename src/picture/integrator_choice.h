@@ -2,9 +2,11 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "integrator/pilot.h"
 #include "scene/render_settings.h"
 #include "world/world.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,9 @@ struct IntegratorChoice {
     std::string integrator;  ///< name in the registry
     std::string reason;      ///< a sentence that names it
 };
+
+/// Chooses one of `integrators`, places in kComparedNames, the simplest first.
+[[nodiscard]] IntegratorChoice choose_by(const PilotFindings& findings, const std::vector<std::size_t>& integrators);
 
 /// Chooses one of `integrators` for `world`. The choice depends on the scene and the settings alone.
 [[nodiscard]] IntegratorChoice choose_integrator(const World& world, const RenderSettings& settings,

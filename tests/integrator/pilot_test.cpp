@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -103,6 +104,49 @@ TEST(Pilot, TellsTheErrorsOfRenders) {
         EXPECT_GT(findings.errors.at(i), 0.65 * measured) << kComparedNames.at(i);
         EXPECT_LT(findings.errors.at(i), 1.35 * measured) << kComparedNames.at(i);
     }
+}
+
+VarianceSum variances(std::initializer_list<double> estimates) {
+    VarianceSum sum;
+    for (const double estimate : estimates) sum.add(estimate);
+    return sum;
+}
+
+TEST(VarianceSum, IsTheMeanUnlessThatCannotBeToldFromNothing) {
+    const VarianceSum usual = variances({1.0, 0.0, 5.0, 0.0});
+    EXPECT_TRUE(usual.is_told());
+    EXPECT_EQ(usual.mean(4.0), 1.5);
+    const VarianceSum alone = variances({0.0, 3.0, 0.0});
+    EXPECT_TRUE(alone.is_told());
+    EXPECT_EQ(alone.mean(3.0), 1.0);
+    for (const VarianceSum& lost : {variances({3.0, -4.0}), variances({4.0, -3.0})}) {
+        EXPECT_FALSE(lost.is_told());
+        EXPECT_EQ(lost.mean(2.0), 2.5);
+    }
+    EXPECT_FALSE(VarianceSum().is_told());
+}
+
+IntegratorChoice choose_of_all(const PerIntegrator<double>& errors, const PerIntegrator<bool>& is_told) {
+    return choose_by({.errors = errors, .is_told = is_told, .costs = {1.0, 2.0, 3.0}}, {0, 1, 2});
+}
+
+TEST(IntegratorChoice, TakesTheSimplestOfWhatCannotBeTold) {
+    const IntegratorChoice none = choose_of_all({4.0, 0.1, 0.01}, {false, false, false});
+    EXPECT_EQ(none.integrator, "path");
+    EXPECT_EQ(none.reason, "'path': a pilot's few samples tell too little of the noise of 'path' and 'bdpt' and 'vcm'");
+    const IntegratorChoice told = choose_of_all({1.0, 4.0, 2.0}, {true, true, true});
+    EXPECT_EQ(told.reason, "'path': for as little noise 'bdpt' takes 8.0 times and 'vcm' takes 6.0 times as long");
+    const IntegratorChoice one = choose_of_all({1.0, 4.0, 0.5}, {true, true, false});
+    EXPECT_EQ(one.integrator, "path");
+    EXPECT_EQ(one.reason,
+              "'path': for as little noise 'bdpt' takes 8.0 times as long; a pilot's few samples tell too "
+              "little of the noise of 'vcm'");
+    // At most so noisy: a bound is enough where it is far below.
+    const IntegratorChoice bounded = choose_of_all({1.0, 4.0, 0.01}, {true, true, false});
+    EXPECT_EQ(bounded.integrator, "vcm");
+    EXPECT_EQ(bounded.reason,
+              "'vcm': for as little noise 'path' takes at least 33 times and 'bdpt' takes at least 267 "
+              "times as long; a pilot's few samples tell too little of the noise of 'vcm'");
 }
 
 }  // namespace
