@@ -32,7 +32,7 @@ std::unique_ptr<const Integrator> make_naive(IntegratorSettings settings) {
 }
 
 std::unique_ptr<const Integrator> make_bdpt(IntegratorSettings settings) {
-    settings.merging.at = MergeAt::Nothing;
+    settings.merging = {.at = MergeAt::Nothing};
     return std::make_unique<BdptIntegrator>(settings);
 }
 

@@ -1,4 +1,5 @@
 // What integrators say that they cannot find, and that those which say nothing find it.
+#include "integrator/agreement_room.h"
 #include "integrator/bdpt/render_bdpt.h"
 #include "integrator/integrator.h"
 #include "render/whole_image.h"
@@ -120,6 +121,40 @@ TEST(UnreachableLight, CausticsOfPointsAreNotSeenInMirrors) {
     EXPECT_EQ(who_says(world, "where the eye sees it in a mirror"), Names{"bdpt"});
     for (const char* name : {"path", "light", "bdpt"}) EXPECT_EQ(render_by(world, name, 6).mean, 0.0) << name;
     EXPECT_GT(render_by(world, "vcm", 6).mean, 0.0);
+}
+
+/// Returns what `vcm` with `settings` says of `world`, one sentence after the other.
+std::string vcm_says(const World& world, const IntegratorSettings& settings) {
+    const auto vcm = make_integrator("vcm", settings);
+    std::string all;
+    for (const auto& sentences : {vcm->unreachable_light(world), vcm->ineffective_options(world)})
+        for (const std::string& sentence : sentences) all += sentence + "\n";
+    return all;
+}
+
+TEST(UnreachableLight, MergingSaysWhatItsOptionsLeaveOut) {
+    SceneDesc scene = wall_in_mirror();
+    scene.lights.push_back(light(LightType::Point, 10.0f, translation({0, 1.5f, 0.2f})));
+    const World world = compile(std::move(scene));
+    EXPECT_EQ(vcm_says(world, {}), "");
+    const MergeSettings none{.at = MergeAt::Nothing};
+    EXPECT_NE(vcm_says(world, {.merging = none}).find("'vcm' with '--merge sds' finds it"), std::string::npos);
+    EXPECT_EQ(vcm_says(world, {.strategy = Strategy{2, 2}, .merging = none}), "");
+    EXPECT_EQ(vcm_says(world, {.strategy = Strategy{2, 2}}), "");
+
+    const MergeSettings wide{.radius = 3.0};
+    const char* const no_effect = "--merge-radius and --merge-alpha have no effect: no vertices merge\n";
+    EXPECT_EQ(vcm_says(world, {.merging = wide}), "");
+    EXPECT_EQ(vcm_says(world, {.strategy = Strategy{2, 2}, .merging = wide}), no_effect);
+    EXPECT_EQ(vcm_says(compile(wall_and_lamp()), {.merging = wide}), no_effect);
+
+    const auto alone = [&](int max_depth, MergeAt at) {
+        return vcm_says(world, {.lengths = {.max_depth = max_depth}, .strategy = kMerges, .merging = {.at = at}});
+    };
+    EXPECT_EQ(alone(4, MergeAt::SeenByDeltas), "");
+    EXPECT_NE(alone(3, MergeAt::SeenByDeltas).find("have 4 edges at least"), std::string::npos);
+    EXPECT_EQ(alone(2, MergeAt::Everywhere), "");
+    EXPECT_NE(alone(1, MergeAt::Everywhere).find("have 2 edges at least"), std::string::npos);
 }
 
 TEST(UnreachableLight, TheSkyItselfIsNotFoundFromTheLight) {

@@ -14,23 +14,41 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
         sentences.push_back(fmt::format(
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
             settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
-    if (settings_.strategy == kMerges && settings_.merging.at != MergeAt::Everywhere &&
-        (settings_.merging.at == MergeAt::Nothing || !world.traits().has_specular_surfaces))
+    if (settings_.strategy == kMerges && !may_merge(world))
         sentences.emplace_back("the image stays black: no vertices merge; '--merge all' merges everywhere");
-    const bool merges = settings_.merging.at != MergeAt::Nothing && settings_.strategy.value_or(kMerges) == kMerges;
-    if (world.traits().has_delta_lights && world.traits().has_specular_surfaces && !merges)
+    // Hidden boundaries are for merges what mirrors are, and add no edges.
+    const bool needs_mirrors = settings_.merging.at == MergeAt::SeenByDeltas && !world.traits().has_bodies;
+    const int merged_edges = needs_mirrors ? 4 : 2;
+    if (settings_.strategy == kMerges && may_merge(world) && merged_edges > settings_.lengths.max_depth)
+        sentences.push_back(
+            fmt::format("the image stays black: paths that merge have {} edges at least, and the longest that are kept "
+                        "have {}",
+                        merged_edges, settings_.lengths.max_depth));
+    if (world.traits().has_delta_lights && world.traits().has_specular_surfaces && !settings_.strategy &&
+        settings_.merging.at == MergeAt::Nothing)
         sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "
-            "where the eye sees it in a mirror or through smooth glass, too; 'vcm' finds it");
+            "where the eye sees it in a mirror or through smooth glass, too; 'vcm' with '--merge sds' finds it");
     return sentences;
 }
 
 std::vector<std::string> BdptIntegrator::ineffective_options(const World& world) const {
-    if (settings_.cached_connections == 0 || !world.traits().has_motion) return {};
-    return {fmt::format(
-        "connections to a cache (cache:{}) have no effect where something moves while the shutter is open: each sample "
-        "has a time of its own, and is connected pairwise",
-        settings_.cached_connections)};
+    std::vector<std::string> sentences;
+    if (settings_.cached_connections > 0 && world.traits().has_motion)
+        sentences.push_back(
+            fmt::format("connections to a cache (cache:{}) have no effect where something moves while the shutter is "
+                        "open: each sample has a time of its own, and is connected pairwise",
+                        settings_.cached_connections));
+    const MergeSettings usual;
+    const bool asks_for_radius = settings_.merging.radius != usual.radius || settings_.merging.alpha != usual.alpha;
+    if (asks_for_radius && (!may_merge(world) || settings_.strategy.value_or(kMerges) != kMerges))
+        sentences.emplace_back("--merge-radius and --merge-alpha have no effect: no vertices merge");
+    return sentences;
+}
+
+bool BdptIntegrator::may_merge(const World& world) const {
+    return settings_.merging.at == MergeAt::Everywhere ||
+           (settings_.merging.at == MergeAt::SeenByDeltas && world.traits().has_specular_surfaces);
 }
 
 std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {

@@ -31,6 +31,9 @@ class BdptIntegrator final : public Integrator {
                      RenderCounters& counters) const override;
 
   private:
+    /// Returns false if no vertices of `world` merge, whichever strategies make the image.
+    [[nodiscard]] bool may_merge(const World& world) const;
+
     IntegratorSettings settings_;
 };
 
