@@ -9,8 +9,8 @@ Merging make_merging(const World& world, int width, int height, double light_pat
                      const MergeSettings& options) {
     if (!world.traits().has_lights || (options.at == MergeAt::SeenByDeltas && !world.traits().has_specular_surfaces))
         return {};
-    // In radii of the scene. Below the least, places are known too coarsely.
-    constexpr float kLeast = 1e-6f;
+    // In radii of the scene. The least only keeps radii above zero: what bounds them is how precisely places are known.
+    constexpr float kLeast = 1e-12f;
     constexpr float kMost = 0.02f;
     constexpr Vec2f kMiddle{0.5f, 0.5f};
     const Ray ray = world.camera().generate_ray(kMiddle, kMiddle, 0.5f);

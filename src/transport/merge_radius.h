@@ -17,17 +17,28 @@ struct MergeRadius {
     Vec3f eye{0.0f};
     RayCone pixel{};     ///< cone of a pixel in the middle of the image
     float scale = 1.0f;  ///< radius over the pixel's width
-    float least = 0.0f;  ///< metres
+    float least = 0.0f;  ///< metres, > 0
     float most = 0.0f;   ///< metres
 
     [[nodiscard]] float operator()(const Vec3f& point) const {
-        return std::clamp(scale * pixel.width_at(length(point - eye)), least, most);
+        const float distance = length(point - eye);
+        return std::max({std::min(scale * pixel.width_at(distance), most), kPrecision * distance,
+                         kPrecision * largest_coordinate(point), least});
     }
     /// Bounds `slope`: within a kernel radii then lie between two thirds and four thirds of its own.
     static constexpr float kMostSlope = 1.0f / 3.0f;
 
     /// Returns how much radii of points one metre apart differ at most.
-    [[nodiscard]] float slope() const { return scale * std::abs(pixel.spread); }
+    [[nodiscard]] float slope() const { return std::max(scale * std::abs(pixel.spread), kPrecision); }
+
+  private:
+    /// Bounds the radius from below, in what rounding of a place grows with: its coordinates, and how far it is seen
+    /// from. Sixteen steps of floats lie within it.
+    static constexpr float kPrecision = 1e-6f;
+
+    [[nodiscard]] static float largest_coordinate(const Vec3f& point) {
+        return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+    }
 };
 
 /// Says where the subpaths of one sample of every pixel merge.
@@ -37,12 +48,14 @@ struct Merging {
     double light_paths = 0.0;  ///< light subpaths whose photons an eye vertex may merge with
 
     [[nodiscard]] bool merges() const { return at != MergeAt::Nothing; }
-    /// Returns eta: how many light subpaths are expected within the radius around `point`, per density of arriving
-    /// there.
-    [[nodiscard]] double expected(const Vec3f& point) const { return expected_within(radius(point)); }
-    /// Returns eta where the radius is `metres`.
+    /// Returns how many light subpaths are expected within `metres`, per density of arriving there.
     [[nodiscard]] double expected_within(float metres) const {
         return std::numbers::pi * static_cast<double>(metres) * static_cast<double>(metres) * light_paths;
+    }
+    /// Returns eta: how many light subpaths are expected within the radius around `point`, per density of arriving
+    /// at a surface there that stops the share `opacity`.
+    [[nodiscard]] double expected(const Vec3f& point, float opacity) const {
+        return static_cast<double>(opacity) * expected_within(radius(point));
     }
     /// Returns the raised density of all ways but a merge over that of the merge, where the recursion of both sides
     /// sums up to `ratio`.

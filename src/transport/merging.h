@@ -2,7 +2,7 @@
 //
 // A vertex x_i merges if nothing but deltas, one at least, lies between it and the lens, and the light has come by a
 // delta, too. "Merge at x_i" finds a path with Q_i eta_i times the density of the strategy s = i + 1, where
-// eta_i = pi r(x_i)² N, with the radius r and N light subpaths. Its weight is
+// eta_i = alpha(x_i) pi r(x_i)² N, with the radius r, N light subpaths and the opacity alpha. Its weight is
 //
 //   1 / (1 + (a_L + b_L q_L) / eta + (a_E + b_E q_E) / eta)
 //
@@ -14,9 +14,11 @@
 
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "sampling/hash.h"
 #include "transport/mis.h"
 #include "world/scattering.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -47,18 +49,40 @@ class CoarseDirection {
     std::array<std::int8_t, 3> parts_{};
 };
 
+/// Says whether a vertex merges, and what of its surface decides with which photons, and how much.
+struct MergePlace {
+    float opacity = 1.0f;      ///< share of subpaths that stop at the point, (0, 1]
+    std::uint16_t sheet = 0;   ///< names a surface that may be partly transparent, among those nearby; 0: an opaque one
+    bool bounds_body = false;  ///< the surface bounds a body, so that its front is known
+    bool merges = false;       ///< subpaths from the other end may merge with this one here; the rest is known then
+};
+
+/// Returns the place of a vertex that merges at `hit` (valid), on a surface of `material`.
+[[nodiscard]] inline MergePlace merge_place(const World& world, const Hit& hit, const Material& material) {
+    MergePlace place{.bounds_body = material.filling != kNone, .merges = true};
+    if (material.alpha_test != AlphaTest::Blend) return place;
+    // What stops a ray is opaque by more than that, but for rounding.
+    constexpr float kLeastOpacity = 1e-6f;
+    place.opacity = std::max(world.geometry().opacity(hit), kLeastOpacity);
+    place.sheet = static_cast<std::uint16_t>(hash_combine(hash_u32(hit.instance), hit.geometry) >> 16 | 1u);
+    return place;
+}
+
 /// Holds a light subpath as it arrives at a vertex that merges.
 struct Photon {
-    Vec3f position{0.0f};          ///< metres
-    Vec3f direction{0.0f};         ///< unit, back to the vertex before
-    Rgb throughput{};              ///< throughput of the subpath, over the cosine, without the weight of its wavelength
+    Vec3f position{0.0f};   ///< metres
+    Vec3f direction{0.0f};  ///< unit, back to the vertex before
+    /// Holds the subpath's throughput over the cosine and the opacity, without the weight of its wavelength.
+    Rgb throughput{};
     float a = 0.0f;                ///< see SubpathDensities
     float b = 0.0f;                ///< see SubpathDensities
     std::uint32_t first_word = 0;  ///< see WordRange
     std::uint32_t word_count = 0;  ///< see WordRange
     std::int32_t edges = 1;        ///< edges of the subpath
+    std::uint16_t sheet = 0;       ///< see MergePlace
     CoarseDirection normal{};      ///< geometric, on the surface's front
     bool is_dispersed = false;     ///< light of other wavelengths would not be here
+    bool bounds_body = false;      ///< see MergePlace
 };
 
 /// Bounds the memory that a photon takes.
@@ -72,14 +96,18 @@ template <typename AnyVertex>
     // The density of photons is one per area of the surface they lie on, that of directions one per area across the
     // ray. The normal of the eye's vertex, on another facet, may be square to a ray that lights this one.
     const float cosine = abs_dot(vertex.wo, geometric_normal);
+    // The eye's subpath stops at a partly transparent surface by chance already; the photon must not have it twice.
+    const float per_light = cosine * vertex.merging.opacity;
     return {.position = vertex.position,
             .direction = vertex.wo,
-            .throughput = cosine > 0.0f ? vertex.throughput * (1.0f / cosine) : Rgb(),
+            .throughput = per_light > 0.0f ? vertex.throughput * (1.0f / per_light) : Rgb(),
             .a = static_cast<float>(vertex.densities.a),
             .b = static_cast<float>(vertex.densities.b),
             .edges = vertex.next_edges - 1,
+            .sheet = vertex.merging.sheet,
             .normal = CoarseDirection(geometric_normal),
-            .is_dispersed = vertex.is_dispersed};
+            .is_dispersed = vertex.is_dispersed,
+            .bounds_body = vertex.merging.bounds_body};
 }
 
 /// Decides which photons a vertex takes light from.
@@ -93,19 +121,39 @@ struct MergeKernel {
     Vec3f normal{0.0f};
     float radius = 0.0f;
     float clearance = 0.0f;  ///< metres that rounding may have moved the vertex, as in SurfacePoint
+    MergePlace surface{};    ///< the vertex's
 
     [[nodiscard]] bool contains(const Photon& photon) const {
         const Vec3f apart = photon.position - position;
-        return length_squared(apart) < radius * radius && photon.normal.cosine(normal) >= kLeastCosine &&
+        return length_squared(apart) < radius * radius && photon.sheet == surface.sheet &&
+               cosine_to(photon) >= kLeastCosine &&
                std::abs(dot(apart, normal)) <= kThickness * radius + 2.0f * clearance;
+    }
+
+  private:
+    /// Returns the cosine between the normals of both surfaces, of sheets on the side that the light comes from: which
+    /// side of these is the front may differ from triangle to triangle.
+    [[nodiscard]] float cosine_to(const Photon& photon) const {
+        const float cosine = photon.normal.cosine(normal);
+        if (surface.bounds_body || photon.bounds_body) return cosine;
+        const bool agree = (photon.normal.cosine(photon.direction) > 0.0f) == (dot(normal, photon.direction) > 0.0f);
+        return agree ? cosine : -cosine;
     }
 };
 
+/// Returns the kernel of a vertex that merges, on a surface with the normal `geometric_normal`.
+template <typename AnyVertex>
+[[nodiscard]] inline MergeKernel merge_kernel(const Merging& merging, const AnyVertex& vertex,
+                                              const Vec3f& geometric_normal, float clearance) {
+    return {vertex.position, geometric_normal, merging.radius(vertex.position), clearance, vertex.merging};
+}
+
 /// Returns the density of all other ways to the path that merges `vertex` with `photon` over that of the merge, raised.
-/// `expected` is Merging::expected at the vertex.
+/// `within` is Merging::expected_within the kernel's radius.
 template <typename AnyVertex>
 [[nodiscard]] inline double others_of_merge(const MisContext& mis, const AnyVertex& vertex, const Photon& photon,
-                                            const Scattering::TwoWayValue& scattered, double expected) {
+                                            const Scattering::TwoWayValue& scattered, double within) {
+    const double expected = within * static_cast<double>(vertex.merging.opacity);
     const SubpathDensities of_photon{.a = static_cast<double>(photon.a), .b = static_cast<double>(photon.b)};
     const double fewer = of_photon.fewer(mis.raised, static_cast<double>(scattered.pdf_solid_angle)) +
                          vertex.densities.fewer(mis.raised, static_cast<double>(scattered.reverse_pdf_solid_angle));
@@ -113,11 +161,11 @@ template <typename AnyVertex>
 }
 
 /// Returns the light that an eye subpath takes from `photon` at `vertex`, which scatters it towards the photon by
-/// `scattered`, times `weight`. `expected` is Merging::expected at the vertex.
+/// `scattered`, times `weight`. `within` is Merging::expected_within the kernel's radius.
 template <typename AnyVertex>
 [[nodiscard]] inline Rgb merged_light(const AnyVertex& vertex, const Photon& photon,
-                                      const Scattering::TwoWayValue& scattered, double weight, double expected) {
-    return vertex.throughput * scattered.f_cos * photon.throughput * static_cast<float>(weight / expected);
+                                      const Scattering::TwoWayValue& scattered, double weight, double within) {
+    return vertex.throughput * scattered.f_cos * photon.throughput * static_cast<float>(weight / within);
 }
 
 }  // namespace etendue

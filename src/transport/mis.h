@@ -60,6 +60,13 @@ struct DepartingDensities {
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
     bool is_from_infinity = false;
 
+    /// Goes on through the boundary of a body that another hides: no connection passes it, so that merges count from
+    /// there on as after a delta.
+    void pass_hidden() {
+        is_connectible = false;
+        d += merged;
+        merged = 0.0;
+    }
     /// Returns the densities at a vertex `squared_distance` m² away, >= 0, where the direction has the cosine
     /// `cos_arriving`. The distance cancels in b, and divides nothing in a: media scatter light again after no distance
     /// at all.
@@ -130,30 +137,43 @@ struct DepartingDensities {
             .cosine = static_cast<double>(cosine)};
 }
 
-/// Returns true if vertex `index` of a subpath from `end`, which has come by deltas alone if `only_deltas`, is what the
-/// eye sees in mirrors or through smooth refractions.
-[[nodiscard]] inline bool is_seen_by_deltas(SubpathEnd end, bool only_deltas, int index) {
-    return end == SubpathEnd::AtEye && only_deltas && index > kDirectlySeen;
-}
+/// Says how a subpath has come to a vertex, for merges: by deltas, or through boundaries of bodies that others hide,
+/// which no connection passes either.
+struct ArrivalForMerging {
+    SubpathEnd end = SubpathEnd::AtEye;
+    int index = 1;                ///< of the vertex
+    bool only_deltas = true;      ///< nothing but deltas lies before it
+    bool is_after_delta = false;  ///< a delta or a hidden boundary lies before it
+    bool is_direct = true;        ///< no hidden boundary lies between it and the vertex before
 
-/// Adds to `arrived` what merging at a vertex at `position` has for the weights; the vertex lies on a surface that
-/// scatters by more than deltas. Returns true if subpaths from `end` merge there: those from the eye where they see it
-/// by deltas (`is_seen`), those from a light if they have come by a delta (`is_after_delta`).
-[[nodiscard]] inline bool merge_at(const MisContext& mis, SubpathEnd end, bool is_seen, bool is_after_delta,
-                                   const Vec3f& position, SubpathDensities& arrived) {
-    const auto expected = [&] { return mis.raised(mis.merging.expected(position)); };
-    switch (mis.merging.at) {
+    /// Returns true if the eye sees the vertex in mirrors, through smooth refractions or through hidden boundaries.
+    [[nodiscard]] bool is_seen_by_deltas() const {
+        return end == SubpathEnd::AtEye && only_deltas && (index > kDirectlySeen || !is_direct);
+    }
+};
+
+/// Returns true if the subpath merges at the vertex, which lies on a surface that scatters by more than deltas.
+[[nodiscard]] inline bool merges_at(MergeAt at, const ArrivalForMerging& arrival) {
+    switch (at) {
         case MergeAt::Nothing:
             return false;
         case MergeAt::SeenByDeltas:
-            if (end == SubpathEnd::AtLight) return is_after_delta;
-            if (is_seen) arrived.merge_a = expected();
-            return is_seen;
+            return arrival.end == SubpathEnd::AtLight ? arrival.is_after_delta : arrival.is_seen_by_deltas();
         case MergeAt::Everywhere:
-            arrived.a += expected();
             return true;
     }
     return false;
+}
+
+/// Adds to `arrived` what the weights need of a vertex at `position` at which a subpath from `end` merges, on a surface
+/// that stops the share `opacity`.
+inline void count_merge(const MisContext& mis, SubpathEnd end, const Vec3f& position, float opacity,
+                        SubpathDensities& arrived) {
+    const double expected = mis.raised(mis.merging.expected(position, opacity));
+    if (mis.merging.at == MergeAt::Everywhere)
+        arrived.a += expected;
+    else if (end == SubpathEnd::AtEye)
+        arrived.merge_a = expected;
 }
 
 /// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.

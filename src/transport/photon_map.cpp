@@ -72,8 +72,8 @@ std::uint32_t PhotonMap::bucket_of(const Vec3f& position) const {
 
 void PhotonMap::find_buckets(const MergeKernel& kernel, Buckets& buckets) const {
     const float change = kernel.radius * radius_.slope();
-    const int least = grid_of(std::max(radius_.least, kernel.radius - change));
-    const int most = grid_of(std::min(radius_.most, kernel.radius + change));
+    const int least = grid_of(kernel.radius - change);
+    const int most = grid_of(kernel.radius + change);
     for (int grid = least; grid <= most; ++grid) {
         const float width = cell_width(grid);
         const auto range = [&](float middle) {

@@ -143,7 +143,7 @@ void ComparedSample::Photons::append(const Photons& others) {
 void ComparedSample::append_photons(Photons& photons) const {
     for (std::size_t i = 0; i < all_.light.size(); ++i) {
         const SubpathVertex& vertex = all_.light[i];
-        if (!vertex.merges) continue;
+        if (!vertex.merging.merges) continue;
         photons.all.push_back(make_photon(vertex, vertex.surface.geometric_normal));
         place_of(photons.all.back()) = static_cast<std::uint32_t>(photons.all.size() - 1);
         photons.unmerged.push_back(unmerged_.light[i].densities);
@@ -210,10 +210,10 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
     const SubpathSample all = sample(setup_.merging);
     for (std::size_t i = 0; i < all_.eye.size(); ++i) {
         const SubpathVertex& eye = all_.eye[i];
-        if (!eye.merges) continue;
+        if (!eye.merging.merges) continue;
         SubpathVertex no_others = unmerged_.eye[i];
         no_others.densities = {};
-        const double expected = all.mis.merging.expected(eye.position);
+        const double within = all.mis.merging.expected_within(all.mis.merging.radius(eye.position));
         light_merged(all, eye, map, [&](const Photon& photon, const StrategyLight& light) {
             work.merges += 1.0;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
@@ -221,7 +221,7 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
                 Photon with = photon;
                 with.a = static_cast<float>(of_photon.a);
                 with.b = static_cast<float>(of_photon.b);
-                return others_of_merge(all.mis, vertex, with, scattered, expected);
+                return others_of_merge(all.mis, vertex, with, scattered, within);
             };
             sum.add(compared(light, others(no_others, photons.of_path_tracing[place_of(photon)]),
                              others(unmerged_.eye[i], photons.unmerged[place_of(photon)])));

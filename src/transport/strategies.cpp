@@ -115,15 +115,15 @@ std::optional<StrategyOnFilm> light_at_lens(const SubpathSample& sample, const S
 
 void light_merged(const SubpathSample& sample, const SubpathVertex& eye, const PhotonMap& photons,
                   const std::function<void(const Photon&, const StrategyLight&)>& add) {
-    const MergeKernel kernel{eye.position, eye.surface.geometric_normal, sample.mis.merging.radius(eye.position),
-                             eye.surface.clearance};
-    const double expected = sample.mis.merging.expected_within(kernel.radius);
+    const MergeKernel kernel =
+        merge_kernel(sample.mis.merging, eye, eye.surface.geometric_normal, eye.surface.clearance);
+    const double within = sample.mis.merging.expected_within(kernel.radius);
     photons.for_each_in(kernel, [&](const Photon& photon) {
         if (!sample.lengths.keeps(eye.next_edges - 1 + photon.edges)) return;
         const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
-        add(photon, {merged_light(eye, photon, scattered, 1.0, expected) *
+        add(photon, {merged_light(eye, photon, scattered, 1.0, within) *
                          sample.wavelength_weight(eye.is_dispersed || photon.is_dispersed),
-                     StrategySums::of_all_others(others_of_merge(sample.mis, eye, photon, scattered, expected))});
+                     StrategySums::of_all_others(others_of_merge(sample.mis, eye, photon, scattered, within))});
     });
 }
 

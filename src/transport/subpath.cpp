@@ -66,11 +66,14 @@ bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Ver
     if (ends_here && !is_clear) return false;
     subpath.is_dispersed = subpath.is_dispersed || vertex.chooses_wavelength;
     if (vertex.has_non_delta() && !ends_here) {
-        const bool is_seen = is_seen_by_deltas(subpath.end, subpath.only_deltas, subpath.index);
-        const bool merges =
-            merge_at(sample.mis, subpath.end, is_seen, subpath.is_after_delta, vertex.position, densities);
+        MergePlace merging;
+        if (merges_at(sample.mis.merging.at,
+                      {subpath.end, subpath.index, subpath.only_deltas, subpath.is_after_delta, subpath.is_direct})) {
+            merging = merge_place(sample.world(), vertex.hit, *vertex.surface.material);
+            count_merge(sample.mis, subpath.end, vertex.position, merging.opacity, densities);
+        }
         vertices.push_back(make_vertex(subpath, vertex, densities, subpath.edges + 1));
-        vertices.back().merges = merges;
+        vertices.back().merging = merging;
     }
     // A light subpath needs one more edge to the camera, at least.
     if (subpath.end == SubpathEnd::AtLight)
@@ -168,7 +171,8 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             if (surface.kind == Vertex::Kind::Boundary) {
                 // Connections pass none but clear boundaries.
                 if (!surface.surface.material->is_clear) {
-                    subpath.departing.is_connectible = false;
+                    subpath.departing.pass_hidden();
+                    subpath.is_after_delta = true;
                     subpath.is_direct = false;
                 }
                 pass_through(subpath, surface);

@@ -5,6 +5,7 @@
 #include "core/rgb.h"
 #include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
+#include "transport/merging.h"
 #include "transport/mis.h"
 #include "transport/vertex.h"
 #include "transport/walk.h"
@@ -73,8 +74,8 @@ struct Subpath {
     int edges = 1;  ///< edges of the path when its ray has hit; media, clear surfaces and hidden boundaries add none
     bool is_dispersed = false;
     bool only_deltas = true;
-    bool is_after_delta = false;
-    bool is_direct = true;  ///< no boundary that another body hides lies between `from` and where the ray is
+    bool is_after_delta = false;  ///< a delta or a hidden boundary lies behind it
+    bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
 
     [[nodiscard]] TransportMode mode() const { return mode_of(end); }
 };
@@ -86,8 +87,8 @@ struct SubpathVertex : Vertex {
     int index = 1;               ///< vertices before it
     int next_edges = 1;          ///< edges of the path when a ray from here has hit
     bool is_dispersed = false;
-    bool is_after_delta = false;  ///< the subpath has scattered by a delta
-    bool merges = false;          ///< other subpaths from the other end may merge with this one here
+    bool is_after_delta = false;  ///< the subpath has scattered by a delta, or passed a hidden boundary
+    MergePlace merging{};
 };
 
 /// Hears where the ray of a subpath has led, and with which densities if that is a surface.

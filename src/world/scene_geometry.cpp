@@ -155,6 +155,10 @@ Rgb SceneGeometry::clear_transmittance(const Ray& ray, RayEnds ends) const {
     return transmittance;
 }
 
+float SceneGeometry::opacity(const Hit& hit) const {
+    return evaluate_opacity(data_, hit.geometry, hit.triangle, {hit.u, hit.v});
+}
+
 HitCoordinates SceneGeometry::hit_coordinates(const Hit& hit, const PlainSurface& surface) const {
     const Geometry& geometry = data_.geometries[hit.geometry];
     const std::vector<Vec2f>& uv = surface.texcoord == 0 ? geometry.uv0 : geometry.uv1;

@@ -65,6 +65,8 @@ class SceneGeometry {
     /// Returns the surface at `hit`, whose textures are filtered for `ray`, which hit it, with `cone` around it. Rays
     /// that go on from it start beyond all surfaces that touch it.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const;
+    /// Returns the share of light, [0, 1], that the surface at `hit` (valid) stops.
+    [[nodiscard]] float opacity(const Hit& hit) const;
     /// Returns the triangle at `hit` (valid) as it is where nothing moves.
     [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const {
         const Geometry& geometry = data_.geometries[hit.geometry];

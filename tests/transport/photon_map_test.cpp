@@ -3,8 +3,10 @@
 
 #include "sampling/warp.h"
 #include "support/random.h"
+#include "world/test_scene.h"
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -73,6 +75,57 @@ TEST(MergeKernel, TakesWhatLiesOnItsSurface) {
     EXPECT_FALSE(moved.contains({.position{0, 2e-4f, 0}, .normal = up}));
     moved.clearance = 1e-4f;
     EXPECT_TRUE(moved.contains({.position{0, 2e-4f, 0}, .normal = up})) << "rounding is no other surface";
+}
+
+TEST(MergeKernel, TakesLightOfSheetsHoweverTheyAreWound) {
+    const Vec3f up{0, 1, 0};
+    MergeKernel kernel{{0, 0, 0}, up, 1.0f};
+    Photon photon{.position{0.1f, 0, 0}, .direction = up, .normal = CoarseDirection(-up)};
+    EXPECT_TRUE(kernel.contains(photon)) << "the same side";
+    photon.bounds_body = true;
+    EXPECT_FALSE(kernel.contains(photon)) << "the other side of a thin wall";
+    photon.bounds_body = false;
+    kernel.surface.bounds_body = true;
+    EXPECT_FALSE(kernel.contains(photon));
+    kernel.surface.bounds_body = false;
+    // The other leaf of a fold, lit between both.
+    const Vec3f leaf = normalize(Vec3f{0.3f, -1, 0});
+    photon.direction = normalize(Vec3f{1, 0.1f, 0});
+    for (const Vec3f& front : {leaf, -leaf}) {
+        photon.normal = CoarseDirection(front);
+        EXPECT_FALSE(kernel.contains(photon));
+    }
+}
+
+TEST(MergeKernel, TakesLightOfOneTransparentSheet) {
+    MergeKernel kernel{{0, 0, 0}, {0, 1, 0}, 1.0f};
+    Photon photon{.position{0.1f, 0, 0}, .direction{0, 1, 0}, .sheet = 7, .normal = CoarseDirection({0, 1, 0})};
+    EXPECT_FALSE(kernel.contains(photon)) << "a decal";
+    kernel.surface.sheet = 7;
+    EXPECT_TRUE(kernel.contains(photon));
+    photon.sheet = 0;
+    EXPECT_FALSE(kernel.contains(photon)) << "what lies behind it";
+}
+
+// Rounding bounds radii, where things are; how large the scene is beside does not.
+TEST(MergeRadius, DependsOnThePlaceAlone) {
+    constexpr MergeSettings kSmall{.at = MergeAt::Everywhere, .radius = 0.1};
+    constexpr int kWidth = 1 << 16;
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    add_object(scene, quad({0, 2, -1}, {1, 0, 0}, {0, 0, 1}), add_material(scene, emissive(Rgb(1.0f))));
+    const auto radius_in = [&](const SceneDesc& of) {
+        return make_merging(compile(of), kWidth, kWidth, 1000.0, 0, kSmall).radius;
+    };
+    const MergeRadius near = radius_in(scene);
+    add_object(scene, quad({0, 0, -1e4f}, {1, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    const MergeRadius with_far = radius_in(scene);
+    const Vec3f close{0, 0, -0.01f};
+    EXPECT_LT(near(close), 1e-6f);
+    EXPECT_FLOAT_EQ(with_far(close), near(close));
+    const Vec3f far{0, 0, -1e4f};
+    EXPECT_GT(with_far(far), 8.0f * std::numeric_limits<float>::epsilon() * 1e4f);
+    EXPECT_GT(near({0, 0, 0}), 0.0f) << "at the camera";
 }
 
 TEST(CoarseDirection, TellsCosines) {

@@ -91,7 +91,7 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
                               .camera_rays = camera_rays_};
     light_.trace(subpaths, spared_rays(settings.lengths.roulette_depth).of_light, nullptr, found_, counters);
     for (const PathVertex& vertex : light_.vertices().all())
-        if (vertex.merges)
+        if (vertex.merging.merges)
             photons.add(make_photon(vertex, vertex.geometric_normal), light_.vertices().words(), vertex.words);
     stamp(job.profile, Stage::Material);
 }
@@ -102,17 +102,17 @@ void BdptWave::merge(const BdptJob& job) {
     for (std::uint32_t v = 0; v < eye_.vertices().all().size(); ++v) {
         const PathVertex& found = eye_.vertices().all()[v];
         // Without weights a path is to be found once.
-        if (!found.merges || (!job.settings.weighted && !found.is_seen_directly)) continue;
+        if (!found.merging.merges || (!job.settings.weighted && !found.is_seen_directly)) continue;
         const PathVertex& eye = eye_.vertices().whole(v);
-        const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position), eye.clearance};
-        const double expected = mis.merging.expected_within(kernel.radius);
+        const MergeKernel kernel = merge_kernel(mis.merging, eye, eye.geometric_normal, eye.clearance);
+        const double within = mis.merging.expected_within(kernel.radius);
         photons.map().for_each_in(kernel, [&](const Photon& photon) {
             if (!job.lengths.keeps(eye.next_edges - 1 + photon.edges)) return;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             if (is_black(scattered.f_cos)) return;
             const double weight =
-                job.settings.weighted ? 1.0 / (1.0 + others_of_merge(mis, eye, photon, scattered, expected)) : 1.0;
-            const Rgb light = merged_light(eye, photon, scattered, weight, expected) *
+                job.settings.weighted ? 1.0 / (1.0 + others_of_merge(mis, eye, photon, scattered, within)) : 1.0;
+            const Rgb light = merged_light(eye, photon, scattered, weight, within) *
                               job.wavelength_weight(eye.slot, eye.is_dispersed || photon.is_dispersed);
             shares_.clear();
             if (eye_.vertices().words().are_followed())

@@ -4,6 +4,7 @@
 #include "core/ray.h"
 #include "core/rgb.h"
 #include "medium/homogeneous_medium.h"
+#include "transport/merging.h"
 #include "transport/mis.h"
 #include "wave/aov/path_words.h"
 #include "world/scattering.h"
@@ -30,16 +31,16 @@ struct PathVertex {
     const HomogeneousMedium* outside = nullptr;  ///< medium on the front; null in vacuum
     const HomogeneousMedium* inside = nullptr;   ///< medium on the back; in a medium, as `outside`
     Rgb throughput{};                            ///< as the subpath arrives, without the weight of its wavelength
+    MergePlace merging{};
+    std::uint32_t slot = 0;  ///< which sample
     SubpathDensities densities{};
     WordRange words{};                   ///< words of the subpath as it arrives
-    std::uint16_t label = 0;             ///< label of the material, for words
-    std::uint32_t slot = 0;              ///< which sample
     int index = 1;                       ///< vertices before it
     int next_edges = 1;                  ///< edges of the path when a ray from here has hit; media add none
+    std::uint16_t label = 0;             ///< label of the material, for words
     bool is_dispersed = false;           ///< light of other wavelengths would not be here, or would not scatter so
     bool is_connectible = true;          ///< false if all it does are deltas
-    bool is_after_delta = false;         ///< the subpath has scattered by a delta
-    bool merges = false;                 ///< subpaths from the other end may merge with this one here
+    bool is_after_delta = false;         ///< the subpath has scattered by a delta, or passed a hidden boundary
     bool is_reached_directly = true;     ///< false if boundaries that other bodies hide lie before it
     bool is_seen_directly = true;        ///< nothing but deltas lie between the eye and it
     bool is_hidden_from_camera = false;  ///< the surface is hidden from the camera

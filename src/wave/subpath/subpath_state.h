@@ -25,7 +25,7 @@ struct SubpathState {
     int edges = 1;  ///< edges of the path when its ray has hit; media, clear surfaces and hidden boundaries add none
     bool is_dispersed = false;
     bool only_deltas = true;
-    bool is_after_delta = false;
+    bool is_after_delta = false;  ///< a delta or a hidden boundary lies behind it
     bool lights_directly = true;  ///< every scattering but the last was a delta
     bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
 };

@@ -9,7 +9,8 @@ void SubpathWave::pass_hidden(std::size_t i, const ShadedSubpath& path) {
     const SurfacePoint& point = path.point;
     // Connections pass none but clear boundaries.
     if (!point.material->is_clear) {
-        states_[i].departing.is_connectible = false;
+        states_[i].departing.pass_hidden();
+        states_[i].is_after_delta = true;
         states_[i].is_direct = false;
     }
     Ray& ray = rays_[i];
@@ -57,9 +58,13 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
         vertex.clearance = lanes_.clearance[path.lane];
     }
     if (vertex.is_connectible && !path.ends_here) {
-        const bool is_seen = is_seen_by_deltas(end_, state.only_deltas, state.index);
-        vertex.merges = merge_at(job.mis, end_, is_seen, state.is_after_delta, vertex.position, path.arrived);
-        vertex.densities = path.arrived;
+        const bool merges = merges_at(job.mis.merging.at, {end_, state.index, state.only_deltas, state.is_after_delta,
+                                                           vertex.is_reached_directly});
+        if (merges) {
+            vertex.merging = merge_place(world, hits_[i], *point.material);
+            count_merge(job.mis, end_, vertex.position, vertex.merging.opacity, path.arrived);
+            vertex.densities = path.arrived;
+        }
     }
     if (world.traits().has_bodies) {
         vertex.outside = world.media().within(crossing ? crossing->outside : interiors_[i]);

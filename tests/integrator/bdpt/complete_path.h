@@ -1,6 +1,7 @@
 // A path from a light to the lens, as a strategy of bidirectional path tracing has made it.
 #pragma once
 
+#include "transport/merging.h"
 #include "transport/mis.h"
 #include "transport/vertex.h"
 
@@ -25,9 +26,10 @@ struct WalkedVertex : Vertex {
     int index = 1;                     ///< vertices of its subpath before it
     bool is_reached_directly = true;   ///< false if boundaries that other bodies hide lie before it
     bool is_left_by_delta = false;     ///< the subpath went on by one
-    bool is_after_delta = false;       ///< the subpath has been scattered by a delta before
+    bool is_after_delta = false;       ///< the subpath has scattered by a delta, or passed a hidden boundary
     float delta_reverse_ratio = 1.0f;  ///< BsdfSample::reverse_ratio of the delta by which it was left
     SubpathDensities densities{};
+    MergePlace merging{};
 
     [[nodiscard]] bool is_on_surface() const { return kind == Kind::Surface; }
 };

@@ -6,6 +6,7 @@
 #include "integrator/bdpt/render_bdpt.h"
 #include "integrator/path/path_integrator.h"
 #include "support/chi2.h"
+#include "support/random.h"
 #include "wave/aov/layered_render.h"
 #include "world/test_scene.h"
 
@@ -98,6 +99,84 @@ TEST(Merging, FindsWhatASpotSendsThroughAPlateTwice) {
 
 IntegratorSettings merges_alone(bool weighted) {
     return {.lengths = {.max_depth = 6}, .strategy = kMerges, .weighted = weighted};
+}
+
+/// Returns a grey material of which the share `opacity` is there.
+MaterialDesc veil(float albedo, float opacity) {
+    MaterialDesc material = diffuse(Rgb(albedo));
+    material.alpha_mode = AlphaMode::Blend;
+    material.base_alpha = opacity;
+    return material;
+}
+
+// Subpaths from both ends stop there by chance; the light of the place counts its opacity once.
+TEST(Merging, CountsTheOpacityOfASurfaceOnce) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}), add_material(scene, veil(0.5f, 0.3f)));
+    add_plate(scene, 0.2f);
+    const World world = compile(std::move(scene));
+    const double expected = 0.3 * light_through_plate();
+    for (const MergeAt at : {MergeAt::SeenByDeltas, MergeAt::Everywhere}) {
+        IntegratorSettings settings = merges_alone(true);
+        settings.merging.at = at;
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(settings), 48), expected, 0.03 * expected);
+    }
+}
+
+// Light passes a black veil just above the floor twice, and none that this stops arrives there.
+TEST(Merging, KeepsTheLightOfAVeilFromWhatLiesBehind) {
+    SceneDesc scene = plate_over_floor(0.2f);
+    add_object(scene, quad({0, 1e-4f, 0}, {0, 0, 4}, {4, 0, 0}), add_material(scene, veil(0.0f, 0.5f)));
+    const double expected = 0.25 * light_through_plate();
+    EXPECT_NEAR(mean_of_render(compile(std::move(scene)), BdptIntegrator(merges_alone(true)), 48), expected,
+                0.03 * expected);
+}
+
+TEST(Merging, LosesNothingWhereWindingsDiffer) {
+    SceneDesc scene = empty_scene();
+    constexpr int kCells = 40;
+    constexpr float kHalf = 5e-3f;
+    PrimitiveDesc floor;
+    Random random(3);
+    for (int z = 0; z < kCells; ++z)
+        for (int x = 0; x < kCells; ++x) {
+            const auto place = [](int cell) { return static_cast<float>(2 * cell + 1 - kCells) * kHalf; };
+            const Vec3f along_x{kHalf, 0, 0};
+            const Vec3f along_z{0, 0, kHalf};
+            const bool turned = random.next() < 0.5f;
+            const PrimitiveDesc cell =
+                quad({place(x), 0, place(z)}, turned ? along_x : along_z, turned ? along_z : along_x);
+            const auto first = static_cast<std::uint32_t>(floor.positions.size());
+            floor.positions.insert(floor.positions.end(), cell.positions.begin(), cell.positions.end());
+            for (const auto& [a, b, c] : cell.triangles) floor.triangles.push_back({first + a, first + b, first + c});
+        }
+    MaterialDesc grey = diffuse(Rgb(0.5f));
+    grey.double_sided = true;
+    add_object(scene, std::move(floor), add_material(scene, grey));
+    add_plate(scene, 0.2f);
+    const double expected = light_through_plate();
+    EXPECT_NEAR(mean_of_render(compile(std::move(scene)), BdptIntegrator(merges_alone(true)), 32), expected,
+                0.02 * expected);
+}
+
+// Air that covers all has the plate bend no light, but no connection passes its boundaries.
+TEST(Merging, FindsWhatPassesHiddenBoundariesTwice) {
+    SceneDesc scene = plate_over_floor(0.2f);
+    MaterialDesc air;
+    DielectricDesc desc{.ior = 1.0f, .roughness = 0.0f};
+    desc.volume.priority = 1;
+    air.override_model = desc;
+    add_object(scene, sphere({0, 1, 0}, 9.0f, 4), add_material(scene, air));
+    const World world = compile(std::move(scene));
+    const double expected = 10.0 / 4.0 * 0.5 / std::numbers::pi;
+    for (const MergeAt at : {MergeAt::SeenByDeltas, MergeAt::Everywhere}) {
+        IntegratorSettings settings{.lengths = {.max_depth = 2}};
+        settings.merging.at = at;
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(settings), 32), expected, 0.02 * expected);
+    }
+    EXPECT_EQ(
+        mean_of_render(world, BdptIntegrator({.lengths = {.max_depth = 2}, .merging = {.at = MergeAt::Nothing}}), 4),
+        0.0);
 }
 
 // The light that both kinds of merges can find is the plate's: seen by two refractions, lit by two.

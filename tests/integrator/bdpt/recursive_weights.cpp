@@ -109,11 +109,12 @@ class GivenPath {
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
             const Emission emission = i == 0 ? this->emission() : Emission{};
             DepartingDensities departing = i == 0 ? leave_light(mis_, emission) : light_.departing[i - 1];
-            departing.is_connectible = departing.is_connectible && is_direct(i);
+            if (!is_direct(i)) departing.pass_hidden();
+            is_after_delta = is_after_delta || !is_direct(i);
             vertex.densities = i == 0 ? arrive_from_light(mis_, emission, departing, vertex.position, cosine)
                                       : departing.arrive(mis_.raised, squared_distance(i - 1), cosine);
             vertex.is_after_delta = is_after_delta;
-            light_.merges[i] = merges(SubpathEnd::AtLight, i, false, vertex);
+            light_.merges[i] = merges({.end = SubpathEnd::AtLight, .is_after_delta = is_after_delta}, i, vertex);
             is_after_delta = is_after_delta || is_delta(i);
             scatter_along(light_, i, vertex, to_eye(i), TransportMode::Importance);
         }
@@ -125,19 +126,25 @@ class GivenPath {
             WalkedVertex vertex = seen_from(i, to_eye(i));
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
             DepartingDensities departing = i == last() ? DepartingDensities() : eye_.departing[i + 1];
-            departing.is_connectible = departing.is_connectible && is_direct(i + 1);
+            if (!is_direct(i + 1)) departing.pass_hidden();
             vertex.densities = i == last() ? arrive_from_lens(mis_, departing, path_.camera, cosine)
                                            : departing.arrive(mis_.raised, squared_distance(i), cosine);
-            eye_.merges[i] = merges(SubpathEnd::AtEye, i, i < last() && only_deltas, vertex);
+            eye_.merges[i] = merges({.end = SubpathEnd::AtEye,
+                                     .index = static_cast<int>(last() - i) + kDirectlySeen,
+                                     .only_deltas = only_deltas,
+                                     .is_direct = is_direct(i + 1)},
+                                    i, vertex);
             only_deltas = only_deltas && is_delta(i);
             scatter_along(eye_, i, vertex, to_light(i), TransportMode::Radiance);
         }
     }
 
     /// Has `vertex`, which is vertex `i`, merge if it may.
-    [[nodiscard]] bool merges(SubpathEnd end, std::size_t i, bool is_seen, WalkedVertex& vertex) const {
-        return scatters_freely(i) && vertex.is_on_surface() &&
-               merge_at(mis_, end, is_seen, vertex.is_after_delta, vertex.position, vertex.densities);
+    [[nodiscard]] bool merges(const ArrivalForMerging& arrival, std::size_t i, WalkedVertex& vertex) const {
+        if (!scatters_freely(i) || !vertex.is_on_surface() || !merges_at(mis_.merging.at, arrival)) return false;
+        vertex.merging = merge_place(mis_.world, vertex.hit, *vertex.surface.material);
+        count_merge(mis_, arrival.end, vertex.position, vertex.merging.opacity, vertex.densities);
+        return true;
     }
 
     [[nodiscard]] EmittedRay emitted() const { return emitted_ray(mis_.world, path_); }
@@ -196,7 +203,7 @@ class GivenPath {
         const Vec3f& from = path_.inner.front()->position;
         const Vec3f direction = -path_.end.direction;
         DepartingDensities departing = eye_.departing.front();
-        departing.is_connectible = departing.is_connectible && is_direct(0);
+        if (!is_direct(0)) departing.pass_hidden();
         if (at_infinity()) return sums_from_afar(mis_, from, path_.end.light, direction, departing).weight();
         const SubpathDensities arrived =
             departing.arrive(mis_.raised, static_cast<double>(length_squared(path_.end.position - from)),
@@ -227,7 +234,8 @@ class GivenPath {
         const double fewer =
             light_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.pdf_solid_angle)) +
             eye_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
-        return 1.0 / (1.0 + mis_.merging.others(fewer / mis_.raised(mis_.merging.expected(path_.inner[i]->position))));
+        const double expected = mis_.merging.expected(path_.inner[i]->position, eye_.vertices[i].merging.opacity);
+        return 1.0 / (1.0 + mis_.merging.others(fewer / mis_.raised(expected)));
     }
 
     const MisContext& mis_;

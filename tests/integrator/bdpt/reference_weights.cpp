@@ -100,7 +100,7 @@ class Path {
             case MergeAt::Nothing:
                 return false;
             case MergeAt::SeenByDeltas:
-                return i < inner_.size() && is_seen_by_deltas(i) && is_lit_by_delta(i);
+                return is_seen_by_deltas(i) && is_lit_by_delta(i);
             case MergeAt::Everywhere:
                 return true;
         }
@@ -108,20 +108,21 @@ class Path {
     }
     /// How many light subpaths are expected within the radius around vertex i, per density.
     [[nodiscard]] double expected_photons(std::size_t i) const {
-        return mis_.merging.expected(inner_[i - 1]->position);
+        const WalkedVertex& vertex = *inner_[i - 1];
+        return mis_.merging.expected(vertex.position, mis_.world.geometry().opacity(vertex.hit));
     }
 
   private:
-    /// True if nothing but deltas lie between vertex i and the lens.
+    /// True if nothing but deltas lie between vertex i and the lens, one at least, or a hidden boundary.
     [[nodiscard]] bool is_seen_by_deltas(std::size_t i) const {
         for (std::size_t j = i + 1; j <= inner_.size(); ++j)
             if (!is_delta(j)) return false;
-        return true;
+        return i < inner_.size() || !is_direct(i + 1);
     }
-    /// True if a delta lies between the light and vertex i.
+    /// True if a delta or a hidden boundary lies between the light and vertex i.
     [[nodiscard]] bool is_lit_by_delta(std::size_t i) const {
-        for (std::size_t j = 1; j < i; ++j)
-            if (is_delta(j)) return true;
+        for (std::size_t j = 1; j <= i; ++j)
+            if (!is_direct(j) || (j < i && is_delta(j))) return true;
         return false;
     }
     [[nodiscard]] bool is_delta(std::size_t i) const {

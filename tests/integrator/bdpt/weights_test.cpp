@@ -73,8 +73,30 @@ INSTANTIATE_TEST_SUITE_P(Rooms, MergingWeights,
                          testing::Values(MergingRoom{"SmoothGlass", MergeAt::SeenByDeltas},
                                          MergingRoom{"Mirror", MergeAt::SeenByDeltas},
                                          MergingRoom{"SmoothGlass", MergeAt::Everywhere},
-                                         MergingRoom{"LampPlastic", MergeAt::Everywhere}),
+                                         MergingRoom{"LampPlastic", MergeAt::Everywhere},
+                                         MergingRoom{"VeilMirroredThinLens", MergeAt::Everywhere}),
                          name_of_merging_room);
+
+// Air of precedence covers half of a ball of glass and half of a mirror, so that paths pass boundaries that it hides,
+// and meet deltas.
+TEST(MergingWeightsOfHiddenBoundaries, AreThoseOfTheDefinition) {
+    AgreementCase room = agreement_case("SmoothGlass");
+    room.make = [make = room.make](SceneDesc& scene) {
+        make(scene);
+        MaterialDesc air;
+        DielectricDesc desc{.ior = 1.0f, .roughness = 0.0f};
+        desc.volume.priority = 1;
+        air.override_model = desc;
+        add_object(scene, sphere({0.2f, -0.6f, -3.0f}, 0.5f, 8), add_material(scene, air));
+        add_object(scene, quad({-0.6f, 0.0f, -3.2f}, {0.3f, 0, 0.1f}, {0, 0.4f, 0}),
+                   add_material(scene, conductor(0.0f)));
+    };
+    const World world = agreement_world(room);
+    const PixelFilter filter(FilterShape::Box);
+    const TileJob job = job_of(kWholeImage, 0, filter);
+    for (const MergeAt merge : {MergeAt::SeenByDeltas, MergeAt::Everywhere})
+        expect_right_weights(world, room.lengths, Heuristic::Power, merge, {&job, 1}, 10'000, kShortEdge);
+}
 
 // A crop has a light path for each of its camera samples, and those all start in it: per area of the film strategies
 // from the eye have more samples than one from the light, as many times as the film is larger. Images do not tell: any
