@@ -118,9 +118,10 @@ def units():
     """The tests that need no Blender, with the numpy of Blender."""
     import unittest
     import blender_addon_test
-    result = unittest.TextTestRunner(verbosity=0).run(unittest.defaultTestLoader.loadTestsFromModule(blender_addon_test))
-    if not result.wasSuccessful():
-        sys.exit(1)
+    import blender_nodes_test
+    for module in (blender_addon_test, blender_nodes_test):
+        if not unittest.TextTestRunner(verbosity=0).run(unittest.defaultTestLoader.loadTestsFromModule(module)).wasSuccessful():
+            sys.exit(1)
 
 
 if __name__ == "__main__":

@@ -12,27 +12,59 @@ IDENTITY = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0
 
 
 class Socket:
-    """An input; `source` is the node whose output is linked to it."""
+    """An input or output; `source` is the node whose first output is linked to it, or a pair of a node and a name."""
 
-    def __init__(self, default_value=None, source=None):
-        self.default_value, self.is_linked = default_value, source is not None
-        self.links = [SimpleNamespace(from_node=source)] if source is not None else []
+    def __init__(self, name, default_value=None, source=None):
+        self.name = self.identifier = name
+        self.is_linked, self.links = source is not None, []
+        self.default_value = (1.0, 1.0, 1.0, 1.0) if source is not None and "Color" in name else default_value
+        if source is not None:
+            node, output = source if isinstance(source, tuple) else (source, 0)
+            self.links = [SimpleNamespace(from_node=node, from_socket=node.outputs[output])]
+
+
+def is_source(value):
+    return isinstance(value, Node) or isinstance(value, tuple) and len(value) > 0 and isinstance(value[0], Node)
 
 
 class Node(SimpleNamespace):
-    """`inputs` maps names to values, or to nodes that are linked."""
+    """`inputs` maps names to values, or to what is linked: nodes, or pairs of a node and the name of its output; `value` is
+    that of its outputs. Numbers after a double underscore tell inputs of one name apart, as `Shader__2`."""
 
-    def __init__(self, kind, inputs=None, **properties):
-        sockets = {name: Socket(source=value) if isinstance(value, Node) else Socket(value)
-                   for name, value in (inputs or {}).items()}
-        super().__init__(type=kind, name=kind, inputs=Inputs(sockets), **properties)
+    def __init__(self, kind, inputs=None, outputs=("Out",), value=None, **properties):
+        sockets = {name: Socket(name.split("__")[0], source=given) if is_source(given) else Socket(name.split("__")[0], given)
+                   for name, given in (inputs or {}).items()}
+        super().__init__(**{"type": kind, "name": kind, **properties}, inputs=Inputs(sockets),
+                         outputs=Inputs({name: Socket(name, value) for name in outputs}))
 
 
 class Inputs(dict):
-    """Sockets by name or number."""
+    """Sockets by name or number, and as a list."""
 
     def __getitem__(self, key):
         return list(self.values())[key] if isinstance(key, int) else super().__getitem__(key)
+
+    def __iter__(self):
+        return iter(list(self.values()))
+
+
+def mix(share, first=None, second=None):
+    return Node("MIX_SHADER", {"Fac": share, "Shader": first, "Shader__2": second})
+
+
+def group(inner, name="BSDF", **inputs):
+    """A group whose output is that of a node inside."""
+    output = Node("GROUP_OUTPUT", {name: inner}, is_active_output=True)
+    return Node("GROUP", inputs, (name,), node_tree=SimpleNamespace(nodes=[output, inner]))
+
+
+def image(name="image", **properties):
+    return SimpleNamespace(**{"name": name, "size": (2, 2), "source": "FILE", "is_float": False, **properties})
+
+
+def texture(picture, vector=None, **properties):
+    return Node("TEX_IMAGE", {"Vector": vector}, ("Color", "Alpha"), image=picture,
+                **{"projection": "FLAT", "extension": "REPEAT", **properties})
 
 
 def tree(kind, surface=None, **inputs):

@@ -14,8 +14,9 @@ import bpy
 import numpy
 from mathutils import Matrix, Quaternion, Vector
 
-from . import glb, passes, scene_settings
+from . import glb, glb_materials, overlooked, passes, scene_settings
 from .exr import write_exr
+from .images import image_bytes
 from .program import known_part
 
 Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
@@ -276,11 +277,15 @@ def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> 
     return []
 
 
-def add_hidden_materials(document: dict[str, Any], origins: dict[str, str]) -> None:
-    """The entries of materials that the camera is not to see."""
+def add_entries(document: dict[str, Any], origins: dict[str, str], change: dict[str, Any]) -> None:
+    """The entries of materials that are copies of others with a change."""
     entries = document.setdefault("materials", {}) if origins else {}
     for name, origin in origins.items():
-        entries[name] = {**entries.get(origin, {}), "visible_to_camera": False}
+        entries[name] = {**entries.get(origin, {}), **change}
+
+
+def bytes_of(image: Any) -> tuple[bytes, str]:
+    return image_bytes(image, Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None)
 
 
 def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, program: Path,
@@ -303,10 +308,13 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     evaluated = depsgraph.scene_eval
     camera = evaluated.camera
     materials = materials_of(items)
+    override = view_layer.material_override
+    if override is not None:
+        materials = [(override, all(closed for _, closed in materials))]
     lamps = [item for name, item in items.items() if item.type == "LIGHT" and name in single]
     written = scene_settings.write(evaluated, lamps, materials,
                                    passes.sources(passes.wanted(view_layer), scene.etendue.denoise),
-                                   (times[0], times[-1]) if motions else None, camera, bpy.app.version)
+                                   (times[0], times[-1]) if motions else None, camera, bpy.app.version, view_layer)
     document, binary = glb.read_glb(file)
     glb.ensure_camera(document, camera.name)
     glb.give_nodes_their_own(document)
@@ -318,12 +326,17 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     glb.set_spots(document, {item.name: scene_settings.spot_cones(item.data) for item in items.values()
                              if item.type == "LIGHT" and item.data.type == "SPOT"})
     glb.give_all_materials(document)
-    glb.blend(document, written.blended)
-    hidden = {name for name, item in items.items() if item.type in SURFACES and not getattr(item, "visible_camera", True)}
-    add_hidden_materials(written.document, glb.hide_from_camera(document, hidden))
+    if override is not None:
+        glb_materials.override(document, override.name)
+    binary = glb_materials.mend(document, binary, written, bytes_of)
+    catchers = set(overlooked.shadow_catchers(items.values(), scene.etendue.integrator, written.note))
+    add_entries(written.document, glb.give_own_materials(document, catchers, "that catches shadows"), {"shadow_catcher": True})
+    hidden = {name for name, item in items.items() if item.type in SURFACES
+              and (not getattr(item, "visible_camera", True) or overlooked.is_indirect_only(item, view_layer))}
+    add_entries(written.document, glb.give_own_materials(document, hidden, "hidden from the camera"), {"visible_to_camera": False})
     binary = glb.add_motion(document, binary, times, motions)
     glb.write_glb(file, document, binary)
-    result = Exported(folder, gltf=document, notes=written.notes)
+    result = Exported(folder, gltf=document, notes=written.notes + overlooked.notes(items.values(), view_layer, moves))
     result.notes += [f"lamp '{item.name}': area lamps in instances are not brought over" for name, item in items.items()
                      if item.type == "LIGHT" and item.data.type == "AREA" and name not in single]
     if written.world_image is not None:

@@ -96,13 +96,6 @@ def set_spots(document: Document, cones: Mapping[str, tuple[float, float]]) -> N
             lamps[lamp["light"]]["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
 
 
-def blend(document: Document, materials: Collection[str]) -> None:
-    """Gives these materials their alpha, which the exporter keeps for those alone that Eevee blends."""
-    for material in document.get("materials", []):
-        if material.get("name") in materials and material.get("alphaMode", "OPAQUE") == "OPAQUE":
-            material["alphaMode"] = "BLEND"
-
-
 def give_all_materials(document: Document) -> None:
     """Gives what has no material the one that Blender shows then: matte, of an albedo of 0.8. That of glTF is white metal."""
     without = [primitive for mesh in document.get("meshes", []) for primitive in mesh["primitives"] if "material" not in primitive]
@@ -161,9 +154,9 @@ def add_motion(document: Document, binary: bytes, times: list[float], motions: M
     return bytes(data)
 
 
-def hide_from_camera(document: Document, names: Collection[str]) -> dict[str, str]:
-    """Gives the meshes of these objects materials of their own. Returns which material each is a copy of, None for the
-    default one."""
+def give_own_materials(document: Document, names: Collection[str], suffix: str) -> dict[str, str]:
+    """Gives the meshes of these objects materials of their own, with this suffix to their names. Returns which material
+    each is a copy of, "" for the default one."""
     copies: dict[int | None, int] = {}
     origins: dict[str, str] = {}
     materials = document.setdefault("materials", [])
@@ -177,7 +170,7 @@ def hide_from_camera(document: Document, names: Collection[str]) -> dict[str, st
                 old = primitive.get("material")
                 if old not in copies:
                     original = {} if old is None else materials[old]
-                    name = f"{original.get('name', 'default')} hidden from the camera"
+                    name = f"{original.get('name', 'default')} {suffix}"
                     materials.append({**copy.deepcopy(original), "name": name})
                     copies[old] = len(materials) - 1
                     origins[name] = original.get("name", "")

@@ -1,0 +1,109 @@
+"""Changes of the materials of the exporter's GLB. Needs nothing of Blender."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
+
+from .written import Document, Written
+
+
+def mend(document: Document, binary: bytes, written: Written, image_bytes: Callable[[Any], tuple[bytes, str]]) -> bytes:
+    """Makes all changes that reading the materials has asked for. `image_bytes` has the file of an image and its media
+    type. Returns the binary part with the images."""
+    leave_out(document, written.left_out)
+    shine_both_ways(document)
+    remove_bumps(document, written.unbumped)
+    binary = add_textures(document, binary, written.textures, image_bytes)
+    blend(document, written.blended, written.alphas)
+    return binary
+
+
+def named(document: Document, names: Collection[str]) -> list[Document]:
+    return [material for material in document.get("materials", []) if material.get("name") in names]
+
+
+def override(document: Document, name: str) -> None:
+    """Gives all surfaces one material, whose entry in render.json says all of it."""
+    materials = document.setdefault("materials", [])
+    number = next((number for number, material in enumerate(materials) if material.get("name") == name), len(materials))
+    if number == len(materials):
+        materials.append({"name": name})
+    for mesh in document.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            primitive["material"] = number
+
+
+def leave_out(document: Document, names: Collection[str]) -> None:
+    """Takes the surfaces of these materials away, and meshes of which nothing is left from their nodes."""
+    numbers = {number for number, material in enumerate(document.get("materials", [])) if material.get("name") in names}
+    empty = set()
+    for number, mesh in enumerate(document.get("meshes", [])):
+        left = [primitive for primitive in mesh["primitives"] if primitive.get("material") not in numbers]
+        if left:
+            mesh["primitives"] = left
+        else:
+            empty.add(number)
+    for node in document.get("nodes", []):
+        if node.get("mesh") in empty:
+            del node["mesh"]
+
+
+def shine_both_ways(document: Document) -> None:
+    """Makes all materials double-sided: Cycles does not look at Backface Culling, and glTF's single sides emit from one."""
+    for material in document.get("materials", []):
+        material["doubleSided"] = True
+
+
+def remove_bumps(document: Document, names: Collection[str]) -> None:
+    """Takes maps of normals away that are images of heights."""
+    for material in named(document, names):
+        material.pop("normalTexture", None)
+        material.get("extensions", {}).get("KHR_materials_clearcoat", {}).pop("clearcoatNormalTexture", None)
+
+
+def blend(document: Document, names: Collection[str], alphas: Mapping[str, float]) -> None:
+    """Makes the alpha of materials coverage, which the exporter drops or cuts as Eevee does, and multiplies it."""
+    for material in named(document, names):
+        material["alphaMode"] = "BLEND"
+        material.pop("alphaCutoff", None)
+        factor = alphas.get(material["name"], 1.0)
+        if factor != 1.0:
+            surface = material.setdefault("pbrMetallicRoughness", {})
+            color = surface.get("baseColorFactor", [1.0] * 4)
+            surface["baseColorFactor"] = [*color[:3], color[3] * factor]
+
+
+def add_textures(document: Document, binary: bytes, textures: Mapping[str, tuple[Any, bool]],
+                 image_bytes: Callable[[Any], tuple[bytes, str]]) -> bytes:
+    """Gives materials images as their base colours, where the exporter has none, or where their alpha counts."""
+    data, numbers = bytearray(binary), {}
+    for name, (image, with_alpha) in textures.items():
+        for material in named(document, {name}):
+            surface = material.setdefault("pbrMetallicRoughness", {})
+            if "baseColorTexture" in surface and not with_alpha:
+                continue
+            if image.name not in numbers:
+                content, kind = image_bytes(image)
+                if not content:
+                    continue
+                data += b"\0" * (-len(data) % 4)
+                view = {"buffer": 0, "byteOffset": len(data), "byteLength": len(content)}
+                data += content
+                numbers[image.name] = add(document, "textures", {"source": add(document, "images", {
+                    "name": image.name, "mimeType": kind, "bufferView": add(document, "bufferViews", view)})})
+            surface["baseColorTexture"] = {**copy.deepcopy(surface.get("baseColorTexture", {})), "index": numbers[image.name]}
+            if with_alpha:
+                material["alphaMode"] = "BLEND"
+                material.pop("alphaCutoff", None)
+    if numbers:
+        buffers = document.setdefault("buffers", [{}])
+        buffers[0]["byteLength"] = len(data)
+    return bytes(data)
+
+
+def add(document: Document, kind: str, item: Document) -> int:
+    """Returns the number of an item that is added to a list of the document."""
+    document.setdefault(kind, []).append(item)
+    return len(document[kind]) - 1

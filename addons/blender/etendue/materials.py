@@ -1,0 +1,385 @@
+"""Materials: the entries of `materials` of render.json, and what is to change of them in the GLB. Needs nothing of Blender."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from . import textures, volumes
+from .nodes import Seen, active_output, behind
+from .written import Document, Written
+
+OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.2, 0.3
+BLACK, GREY, WHITE = [0.0] * 3, [0.8] * 3, [1.0] * 3
+COLOR, TRANSMISSION = ("Base Color",), ("Transmission Weight", "Transmission")
+EMISSION = ("Emission Color", "Emission")
+GLOSSY = ("BSDF_GLOSSY", "BSDF_ANISOTROPIC")
+
+
+def clamped(color: Any) -> list[float]:
+    return [min(max(channel, 0.0), 1.0) for channel in color]
+
+
+def matte(albedo: list[float]) -> Document:
+    return {"diffuse": {"albedo": albedo}}
+
+
+def material(material: Any, closed: bool, written: Written, whole: bool = False) -> Document:
+    """The entry of `materials`: what the exporter drops of the Principled BSDF, and what can be read of other shaders.
+    `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material."""
+    if not material.use_nodes or material.node_tree is None:
+        return matte(clamped(list(material.diffuse_color)[:3]))
+    output = active_output(material.node_tree, "OUTPUT_MATERIAL")
+    # The exporter takes the active output, be it Eevee's.
+    reader = Reader(material, closed, written, whole or output is not None and not output.is_active_output)
+    if output is None:
+        return reader.nothing("it has no output")
+    ends = Seen(output)
+    if ends.source("Displacement") is not None:
+        reader.note("its displacement is not brought over")
+    shader, volume = ends.source("Surface"), ends.source("Volume")
+    if shader is not None:
+        if getattr(material, "blend_method", "") == "CLIP":
+            written.blended.add(material.name)
+        result = reader.surface(shader)
+        reader.notes_of_textures(shader)
+        return reader.filled(result, volume) if volume is not None else result
+    return reader.nothing("it has no surface") if volume is None else reader.fog(volume)
+
+
+@dataclass
+class Reader:
+    """Reads the shaders of one material."""
+
+    material: Any
+    closed: bool
+    written: Written
+    whole: bool
+
+    def note(self, text: str) -> None:
+        self.written.note(f"material '{self.material.name}': {text}")
+
+    def nothing(self, why: str) -> Document:
+        self.note(f"{why}, and is black as in Cycles")
+        return matte(BLACK)
+
+    def notes_of_textures(self, shader: Seen) -> None:
+        for text in textures.notes(shader):
+            self.note(text)
+
+    # --- what is in the way of shaders
+
+    def surface(self, shader: Seen | None) -> Document:
+        """The entry for a shader of any kind."""
+        if shader is None:
+            return matte(BLACK)
+        known = {"BSDF_PRINCIPLED": self.principled, "EMISSION": self.emission, "MIX_SHADER": self.mix,
+                 "ADD_SHADER": self.add, "BSDF_TRANSPARENT": self.transparent, "BSDF_DIFFUSE": self.diffuse,
+                 "BSDF_TRANSLUCENT": self.translucent, "BSDF_GLASS": self.glass, "BSDF_REFRACTION": self.glass,
+                 "SUBSURFACE_SCATTERING": self.wax, **{kind: self.glossy for kind in GLOSSY}}
+        if shader.type in known:
+            return known[shader.type](shader)
+        albedo = self.color(shader, "Color") if shader.socket("Color") is not None else GREY
+        self.note(f"its node '{shader.name}' is not brought over, and shown as a matte surface")
+        return matte(albedo)
+
+    def mix(self, shader: Seen) -> Document:
+        """One of two shaders: with transparency as coverage, with emission as its share of it, else the heavier one."""
+        share, sides = shader.value(0), [shader.source(1), shader.source(2)]
+        if share is not None and not 0.0 < share < 1.0:
+            return self.surface(sides[int(share >= 1.0)])
+        kinds = ["" if side is None else side.type for side in sides]
+        if kinds.count("BSDF_TRANSPARENT") == 1:
+            return self.covered(shader, share, sides, kinds.index("BSDF_TRANSPARENT"))
+        factor = shader.source(0)
+        seen_by_camera = factor is not None and factor.type == "LIGHT_PATH" and factor.output.name == "Is Camera Ray"
+        chosen = sides[int(seen_by_camera if share is None else share > 0.5)]
+        self.note(f"of its node '{shader.name}', only '{chosen.name if chosen is not None else 'black'}' is brought over")
+        if share is not None and kinds.count("EMISSION") == 1:
+            at = kinds.index("EMISSION")
+            return self.surface(sides[1 - at]) | self.shine(sides[at], share if at == 1 else 1.0 - share)
+        return self.surface(chosen)
+
+    def covered(self, mix: Seen, share: float | None, sides: list[Seen | None], clear: int) -> Document:
+        """A shader that is mixed with transparency: a constant, or the alpha of its own image."""
+        rest, name = sides[1 - clear], self.material.name
+        result = self.surface(rest)
+        if share is not None:
+            self.cover(share if clear == 0 else 1.0 - share)
+            return result
+        mask = mix.source(0)
+        own = behind(rest.source(*COLOR, "Color"), "TEX_IMAGE") if rest is not None else None
+        if clear == 0 and mask is not None and own is not None and mask.type == "TEX_IMAGE" and mask.output.name == "Alpha" \
+                and mask.node.image == own.node.image and self.fetch(own, True):
+            if "diffuse" not in result:
+                return result
+        self.note(f"what is linked to the factor of its node '{mix.name}' is not brought over: nothing is transparent")
+        return result
+
+    def add(self, shader: Seen) -> Document:
+        """A shader and the light of another one; else the first of two."""
+        sides = [shader.source(0), shader.source(1)]
+        shining = [side for side in sides if side is not None and side.type == "EMISSION"]
+        others = [side for side in sides if side is not None and side.type != "EMISSION"]
+        if len(shining) == 1 and others:
+            return self.surface(others[0]) | self.shine(shining[0])
+        both = others or shining
+        if len(both) == 2:
+            self.note(f"of its node '{shader.name}', only '{both[0].name}' is brought over")
+        return self.surface(both[0] if both else None)
+
+    # --- shaders of one lobe
+
+    def color(self, shader: Seen, *names: str) -> list[float]:
+        """The constant colour of an input; white if the GLB gets the image that is linked to it."""
+        color = shader.value(*names)
+        if color is not None:
+            return clamped(color)
+        texture = behind(shader.source(*names), "TEX_IMAGE")
+        if texture is not None and self.fetch(texture):
+            return WHITE
+        self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
+        return GREY
+
+    def fetch(self, texture: Seen, with_alpha: bool = False) -> bool:
+        """Has the GLB get the image, and returns whether there is one."""
+        if texture.node.image is None:
+            return False
+        self.written.textures[self.material.name] = (texture.node.image, with_alpha)
+        return True
+
+    def number(self, shader: Seen, name: str, default: float) -> float:
+        """The constant number of an input, `default` where something else is linked to it."""
+        value = shader.value(name, default=default)
+        if value is None:
+            self.note(f"what is linked to '{name}' of '{shader.name}' is not brought over")
+        return default if value is None else value
+
+    def roughness(self, shader: Seen, default: float) -> float:
+        if getattr(shader.node, "distribution", "") == "SHARP":
+            return 0.0
+        return min(max(self.number(shader, "Roughness", default), 0.0), 1.0)
+
+    def flat(self, shader: Seen) -> None:
+        if shader.is_linked("Normal"):
+            self.note(f"the normals of '{shader.name}' are not brought over")
+
+    def diffuse(self, shader: Seen) -> Document:
+        self.flat(shader)
+        color, rough = self.color(shader, "Color"), self.roughness(shader, 0.0)
+        if shader.value("Color") is None and self.material.name in self.written.textures:
+            return {"base_color": WHITE, "metallic": 0.0, "roughness": 1.0, "specular": 0.0}
+        return {"diffuse": {"albedo": color, **({"roughness": rough} if rough > 0.0 else {})}}
+
+    def glossy(self, shader: Seen) -> Document:
+        self.flat(shader)
+        return {"base_color": self.color(shader, "Color"), "metallic": 1.0, "roughness": self.roughness(shader, 0.5)}
+
+    def glass(self, shader: Seen) -> Document:
+        self.flat(shader)
+        if shader.type == "BSDF_REFRACTION":
+            self.note(f"its node '{shader.name}' reflects, too, as glass does")
+        ior = self.number(shader, "IOR", 1.45)
+        if ior < 1.0:
+            self.note("an index of refraction below 1 is not brought over")
+        return {"base_color": self.color(shader, "Color"), "metallic": 0.0, "roughness": self.roughness(shader, 0.0),
+                "transmission": 1.0, "ior": max(ior, 1.0), **({"solid": True} if self.closed else {})}
+
+    def translucent(self, shader: Seen) -> Document:
+        self.flat(shader)
+        return {"base_color": BLACK, "metallic": 0.0, "roughness": 1.0, "specular": 0.0, "diffuse_transmission": 1.0,
+                "diffuse_transmission_color": clamped(shader.value("Color") or self.average(shader, "Color"))}
+
+    def average(self, shader: Seen, name: str) -> list[float]:
+        self.note(f"what is linked to '{name}' of '{shader.name}' is not brought over")
+        return GREY
+
+    def cover(self, alpha: float) -> None:
+        """Multiplies the alpha that the exporter has."""
+        self.written.blended.add(self.material.name)
+        self.written.alphas[self.material.name] = self.written.alphas.get(self.material.name, 1.0) * min(max(alpha, 0.0), 1.0)
+
+    def transparent(self, shader: Seen) -> Document:
+        color = clamped(shader.value("Color") or self.average(shader, "Color"))
+        if max(color) - min(color) > 0.01:
+            self.note(f"the tint of '{shader.name}' is not brought over")
+        self.cover(1.0 - sum(color) / 3.0)
+        return matte(BLACK)
+
+    def emission(self, shader: Seen) -> Document:
+        return matte(BLACK) | self.shine(shader)
+
+    def shine(self, shader: Seen, share: float = 1.0) -> Document:
+        """The light of an Emission; where its colour has an image, the exporter has the light."""
+        color, strength = shader.value("Color"), shader.value("Strength")
+        if color is None:
+            self.cut_at_one(shader.source("Color"))
+            if behind(shader.source("Color"), "TEX_IMAGE") is not None and not shader.groups and strength != 0.0:
+                return {}
+            self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
+            color = BLACK
+        if strength is None:
+            self.note(f"what is linked to the strength of '{shader.name}' is not brought over")
+            strength = 1.0
+        return {"emission": {"color": [max(channel, 0.0) for channel in color], "strength": max(strength * share, 0.0)}}
+
+    def cut_at_one(self, color: Seen | None) -> None:
+        texture = behind(color, "TEX_IMAGE")
+        if texture is not None and getattr(texture.node.image, "is_float", False):
+            self.note(f"the image '{texture.node.image.name}' gives light of up to 1 alone: the exporter cuts it")
+
+    def wax(self, shader: Seen) -> Document:
+        radius, scale = shader.value("Radius"), shader.value("Scale", default=1.0)
+        color = shader.value("Color")
+        if not self.closed or radius is None or scale is None or color is None:
+            self.note(f"its node '{shader.name}' is brought over on closed meshes without textures, else shown as a matte surface")
+            return self.diffuse(shader)
+        return body(color, radius, scale, 0.5, 1.4, shader.value("Anisotropy", default=0.0) or 0.0)
+
+    # --- the Principled BSDF
+
+    def principled(self, shader: Seen) -> Document:
+        alpha = shader.value("Alpha", default=1.0)
+        if alpha is None or alpha < 1.0:
+            self.written.blended.add(self.material.name)
+        self.check_normals(shader)
+        self.cut_at_one(shader.source(*EMISSION))
+        wax = self.subsurface(shader)
+        if wax is not None:
+            return wax
+        result = self.unseen(shader)
+        transmission = shader.value(*TRANSMISSION, default=0.0)
+        if transmission is None or transmission > 0.0:
+            if self.closed:
+                result["solid"] = True
+            ior = shader.value("IOR", default=1.45)
+            if ior is not None:
+                result["ior"] = max(ior, 1.0)
+            color = shader.value(*COLOR)
+            # Since Blender 4.0, light has the colour once it has passed two of its surfaces.
+            if self.closed and transmission == 1.0 and color and shader.socket("Transmission Weight") is not None:
+                result["base_color"] = [math.sqrt(channel) for channel in clamped(color)]
+        if shader.socket("Clearcoat") is not None:
+            coat = shader.value("Clearcoat")
+            if coat is None or coat > 0.0:
+                # Blender before 4.0 shows a quarter of it.
+                result["clearcoat"] = 0.25 * (1.0 if coat is None else min(coat, 1.0))
+        film = shader.value("Thin Film Thickness", default=0.0)
+        if film:
+            result |= {"iridescence": 1.0, "iridescence_ior": max(shader.value("Thin Film IOR", default=1.33) or 1.33, 1.0),
+                       "iridescence_thickness_minimum": film, "iridescence_thickness_maximum": film}
+        result |= sheen(shader)
+        stretch = shader.value("Anisotropic", default=0.0)
+        rough = shader.value("Roughness", default=0.5)
+        if stretch is None or (stretch and rough is None):
+            self.note("anisotropy by textures is not brought over")
+        elif stretch > 0.0:
+            result |= anisotropy(stretch, rough, shader.value("Anisotropic Rotation", default=0.0) or 0.0)
+        return result
+
+    def unseen(self, shader: Seen) -> Document:
+        """Factors that the exporter does not read: what is linked to constants, and all where it has not seen the shader."""
+        hidden, result = self.whole or bool(shader.groups), {}
+        for key, names, usual in (("metallic", ("Metallic",), 0.0), ("roughness", ("Roughness",), 0.5), ("transmission", TRANSMISSION, 0.0)):
+            value = shader.value(*names, default=usual)
+            if value is not None and (hidden or shader.is_linked(*names)):
+                result[key] = min(max(value, 0.0), 1.0)
+            elif value is None and hidden:
+                self.note(f"what is linked to '{names[-1]}' of '{shader.name}' is not brought over")
+                result[key] = usual
+        color = shader.value(*COLOR)
+        if hidden:
+            result["base_color"] = self.color(shader, *COLOR)
+            level = shader.value("Specular IOR Level", "Specular", default=0.5)
+            result["specular"] = min(2.0 * (0.5 if level is None else level), 1.0)
+            alpha = shader.value("Alpha", default=1.0)
+            if alpha is not None and alpha < 1.0:
+                self.cover(alpha)
+            light, strength = shader.value(*EMISSION), shader.value("Emission Strength", default=1.0)
+            if light is None or strength is None:
+                self.note(f"the light of '{shader.name}' is not brought over")
+            else:
+                result["emission"] = {"color": [max(channel, 0.0) for channel in light], "strength": max(strength, 0.0)}
+        elif color is not None and shader.is_linked(*COLOR):
+            result["base_color"] = clamped(color)
+        return result
+
+    def check_normals(self, shader: Seen) -> None:
+        """Takes away height images, which the exporter has for maps of normals."""
+        for name in ("Normal", "Clearcoat Normal", "Coat Normal"):
+            source = shader.source(name)
+            if source is not None and source.type != "NORMAL_MAP":
+                self.written.unbumped.add(self.material.name)
+                self.note(f"'{source.name}' at its input {name} is not brought over: only normal maps are")
+
+    def subsurface(self, shader: Seen) -> Document | None:
+        """A translucent body in place of the material, from a weight of one half on; None below that."""
+        weight = shader.value("Subsurface Weight", "Subsurface", default=0.0)
+        if weight is not None and weight == 0.0:
+            return None
+        old = shader.socket("Subsurface Color") is not None
+        albedo = shader.value("Subsurface Color" if old else "Base Color")
+        radius = shader.value("Subsurface Radius")
+        # Blender before 4.0 scales the radius by the weight.
+        scale = weight if old else shader.value("Subsurface Scale", default=1.0)
+        if weight is None or weight < 0.5 or not self.closed or albedo is None or radius is None or scale is None:
+            self.note("subsurface scattering is brought over from a weight of 0.5 on, without textures, on closed meshes")
+            return None
+        rough, ior = shader.value("Roughness", default=0.5), shader.value("IOR", "Subsurface IOR", default=1.4)
+        return body(albedo, radius, scale, 0.5 if rough is None else rough, 1.4 if ior is None else ior,
+                    shader.value("Subsurface Anisotropy", default=0.0) or 0.0)
+
+    # --- volumes
+
+    def filled(self, result: Document, volume: Seen) -> Document:
+        """A surface with what fills it: its medium, where light enters it as far as can be told."""
+        if result.get("solid"):
+            medium = volumes.medium(volume)
+            if medium is not None:
+                return result | medium
+            self.note(f"the volume '{volume.name}' is not brought over: only what is constant is")
+        return result
+
+    def fog(self, volume: Seen) -> Document:
+        """A body without a surface of its own; without what can be read, there is nothing."""
+        medium = volumes.medium(volume) if self.closed else None
+        if medium is None:
+            self.note(f"the volume '{volume.name}' is not brought over: only constants in closed meshes are")
+            self.written.left_out.add(self.material.name)
+            return {}
+        if volumes.glows(volume):
+            self.note(f"the light of the volume '{volume.name}' is not brought over")
+        return {"base_color": WHITE, "metallic": 0.0, "roughness": 0.0, "transmission": 1.0, "ior": 1.0, "solid": True, **medium}
+
+
+def body(albedo: Any, radius: Any, scale: float, rough: float, ior: float, forward: float) -> Document:
+    """A body in which light scatters."""
+    return {"subsurface": {"albedo": clamped(albedo), "radius": [max(length * scale, 1e-5) for length in radius],
+                           "anisotropy": forward, "roughness": min(rough, 1.0), "ior": min(max(ior, 1.0), 3.0)}}
+
+
+def anisotropy(stretch: float, roughness: float, rotation: float) -> Document:
+    """glTF's factors with the two widths that Cycles' lobe has: r² / a and r² a, where a = sqrt(1 - 0.9 stretch)."""
+    aspect = math.sqrt(1.0 - 0.9 * min(stretch, 1.0))
+    wide, narrow = min(roughness ** 2 / aspect, 1.0), min(roughness ** 2 * aspect, 1.0)
+    strength = math.sqrt((wide - narrow) / (1.0 - narrow)) if narrow < 1.0 else 0.0
+    return {"roughness": math.sqrt(narrow), "anisotropy_strength": strength, "anisotropy_rotation": 2.0 * math.pi * rotation}
+
+
+def sheen(shader: Seen) -> Document:
+    weight = shader.value("Sheen Weight", "Sheen", default=0.0)
+    if not weight:
+        return {}
+    tint = shader.value("Sheen Tint", default=0.0)
+    if isinstance(tint, list):  # a colour, since Blender 4.0
+        color, rough = tint, shader.value("Sheen Roughness", default=0.5)
+    else:
+        base = shader.value("Base Color") or [1.0, 1.0, 1.0]
+        luminance = 0.2126 * base[0] + 0.7152 * base[1] + 0.0722 * base[2]
+        hue = [channel / luminance if luminance > 0.0 else 1.0 for channel in base]
+        # Disney's sheen, which is that of Blender before 4.0, adds a fifth as much light as glTF's: the means of a ball
+        # under an even sky are then alike.
+        color, rough = [OLD_SHEEN * (1.0 + (tint or 0.0) * (channel - 1.0)) for channel in hue], OLD_SHEEN_ROUGHNESS
+    return {"sheen_color": clamped(weight * channel for channel in color),
+            "sheen_roughness": 0.5 if rough is None else min(rough, 1.0)}

@@ -1,0 +1,27 @@
+"""What is said of a scene beside the exporter's GLB, gathered by all that read the scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+Document = dict[str, Any]
+
+
+@dataclass
+class Written:
+    """Holds render.json, an image that its environment needs, changes of the GLB's materials by their names, and notes."""
+
+    document: Document = field(default_factory=dict)
+    world_image: Any = None
+    blended: set[str] = field(default_factory=set)  # whose alpha is coverage, where the exporter drops or cuts it
+    alphas: dict[str, float] = field(default_factory=dict)  # multiply what the exporter has
+    textures: dict[str, tuple[Any, bool]] = field(default_factory=dict)  # images of base colours; whether their alpha counts
+    unbumped: set[str] = field(default_factory=set)  # whose normal map is a height map
+    left_out: set[str] = field(default_factory=set)  # whose surfaces are not there
+    notes: list[str] = field(default_factory=list)
+
+    def note(self, text: str) -> None:
+        """Says once what is not brought over."""
+        if text not in self.notes:
+            self.notes.append(text)

@@ -1,0 +1,411 @@
+"""Tests of what Blender's add-on reads of trees of nodes, and of what it says is lost; needs no Blender.
+
+Called with the program as its last argument, it also holds the entries of materials against the program's schema."""
+
+import math
+import os
+import sys
+import unittest
+from pathlib import Path
+
+import fake_blender as fake
+from etendue import glb_materials, materials, nodes, overlooked, program, scene_settings, volumes
+from etendue.written import Written
+
+try:
+    import numpy
+    from etendue import images
+except ImportError:
+    numpy = None
+
+LAST = Path(sys.argv[-1] if len(sys.argv) > 1 else "-")
+PROGRAM = Path(sys.argv.pop()) if LAST.is_file() and os.access(LAST, os.X_OK) else None
+GREY, RED = (0.5, 0.5, 0.5, 1.0), (0.8, 0.2, 0.1, 1.0)
+
+
+def value(number):
+    return fake.Node("VALUE", value=number)
+
+
+def rgb(color):
+    return fake.Node("RGB", value=color)
+
+
+def diffuse(color=GREY, **inputs):
+    return fake.Node("BSDF_DIFFUSE", {"Color": color, "Roughness": 0.0, **inputs})
+
+
+def transparent(color=(1.0, 1.0, 1.0, 1.0)):
+    return fake.Node("BSDF_TRANSPARENT", {"Color": color})
+
+
+def emission(color=GREY, strength=1.0):
+    return fake.Node("EMISSION", {"Color": color, "Strength": strength})
+
+
+class Constants(unittest.TestCase):
+    def seen(self, socket):
+        return nodes.Seen(fake.Node("BSDF", {"Color": socket}))
+
+    def test_constants_come_through_reroutes_groups_and_muted_nodes(self):
+        reroute = fake.Node("REROUTE", {"Input": rgb(RED)})
+        self.assertEqual(self.seen(reroute).value("Color"), [0.8, 0.2, 0.1])
+        inside = fake.group(fake.Node("REROUTE", {"Input": fake.Node("GROUP_INPUT", outputs=("Tint",))}), "Color", Tint=rgb(RED))
+        self.assertEqual(self.seen(inside).value("Color"), [0.8, 0.2, 0.1])
+        muted = fake.Node("INVERT", {"Color": rgb(RED)}, mute=True)
+        muted.internal_links = [fake.SimpleNamespace(from_socket=muted.inputs["Color"], to_socket=muted.outputs["Out"])]
+        self.assertEqual(self.seen(muted).value("Color"), [0.8, 0.2, 0.1])
+        muted.mute = False
+        self.assertIsNone(self.seen(muted).value("Color"))
+
+    def test_numbers_and_colours_are_made_of_each_other(self):
+        self.assertEqual(self.seen(value(0.25)).value("Color"), [0.25] * 3)
+        number = nodes.Seen(fake.Node("BSDF", {"Fac": rgb((1.0, 0.0, 0.0, 1.0))}))
+        self.assertAlmostEqual(number.value("Fac"), 0.2126)
+        product = fake.Node("MATH", {"Value": value(3.0), "Value__2": 2.0}, operation="MULTIPLY")
+        self.assertEqual(nodes.Seen(fake.Node("BSDF", {"Fac": product})).value("Fac"), 6.0)
+
+    def test_black_bodies_have_the_colours_of_planck(self):
+        # From the CIE's chromaticities (0.4369, 0.4041) and (0.3135, 0.3237); the fits are within 2%.
+        for kelvin, expected in ((3000.0, (1.770, 0.845, 0.272)), (6500.0, (1.043, 0.984, 1.035))):
+            for found, wanted in zip(self.seen(fake.Node("BLACKBODY", {"Temperature": kelvin})).value("Color"), expected):
+                self.assertLess(abs(found - wanted), 0.02)
+
+    def test_outputs_are_those_of_cycles(self):
+        def output(target, active):
+            return fake.Node("OUTPUT_MATERIAL", target=target, is_active_output=active)
+
+        for outputs, expected in (((output("EEVEE", True), output("ALL", False)), 1), ((output("ALL", True), output("CYCLES", False)), 1),
+                                  ((output("ALL", False), output("ALL", True)), 1)):
+            tree = fake.SimpleNamespace(nodes=outputs)
+            self.assertIs(nodes.active_output(tree, "OUTPUT_MATERIAL"), outputs[expected])
+
+
+class Lamps(unittest.TestCase):
+    def lamp(self, *shaders, kind="POINT", **properties):
+        tree = fake.tree("OUTPUT_LIGHT", shaders[0] if shaders else None)
+        tree.nodes[:0] = shaders[1:]
+        result = Written()
+        item = fake.item("Lamp", fake.light(kind, use_nodes=True, node_tree=tree, **properties), "LIGHT")
+        return scene_settings.lamp(item, (3, 4, 1), result), result.notes
+
+    def test_the_emission_is_that_of_the_output_each_input_on_its_own(self):
+        lamp, notes = self.lamp(emission((0.5, 1.0, 1.0, 1.0), fake.Node("TEX_IES")), emission(strength=7.0))
+        self.assertEqual((lamp["power"], lamp["color"][0]), (10.0, 0.5))
+        self.assertIn("strength", notes[0])
+        lamp, notes = self.lamp(emission(fake.Node("TEX_IMAGE"), value(3.0)))
+        self.assertEqual((lamp["power"], lamp["color"][0]), (30.0, 1.0))
+        self.assertIn("color", notes[0])
+
+    def test_falloff_and_black_bodies(self):
+        falloff = fake.Node("LIGHT_FALLOFF", {"Strength": 4.0, "Smooth": 0.0}, ("Quadratic", "Linear"))
+        lamp, notes = self.lamp(emission(fake.Node("BLACKBODY", {"Temperature": 3000.0}), (falloff, "Quadratic")))
+        self.assertEqual((lamp["power"], notes), (40.0, []))
+        self.assertGreater(lamp["color"][0], 1.6)
+        self.assertIn("square of the distance", self.lamp(emission(strength=(falloff, "Linear")))[1][0])
+
+    def test_what_is_not_read_is_said(self):
+        self.assertEqual(self.lamp()[0]["power"], 0.0)
+        lamp, notes = self.lamp(fake.Node("MIX_SHADER"))
+        self.assertEqual((lamp["power"], len(notes)), (10.0, 1))
+        lamp, notes = self.lamp(emission(), energy=-5.0)
+        self.assertEqual((lamp["power"], len(notes)), (0.0, 1))
+
+    def test_portals_do_not_shine(self):
+        items = [fake.item(name, fake.light("AREA", cycles=fake.SimpleNamespace(is_portal=portal)), "LIGHT")
+                 for name, portal in (("Portal", True), ("Lamp", False))]
+        self.assertEqual(set(scene_settings.write(fake.scene(), items, (), ()).document["lights"]), {"Lamp"})
+
+
+class Worlds(unittest.TestCase):
+    def environment(self, surface):
+        result = Written()
+        return scene_settings.environment(fake.world(surface), False, result), result
+
+    def background(self, color, strength=2.0):
+        return fake.Node("BACKGROUND", {"Color": color, "Strength": strength})
+
+    def sky(self, **mapping):
+        vector = fake.Node("MAPPING", {"Rotation": (0.0, 0.0, 0.0), **mapping}, vector_type="POINT") if mapping else None
+        return fake.Node("TEX_ENVIRONMENT", {"Vector": vector}, image="the image", projection="EQUIRECTANGULAR")
+
+    def test_images_and_colours_are_found_behind_other_nodes(self):
+        found, result = self.environment(self.background(fake.Node("HUE_SAT", {"Hue": 0.5, "Color": self.sky()})))
+        self.assertEqual((found["image"], result.world_image, len(result.notes)), ("world.exr", "the image", 1))
+        found, result = self.environment(self.background(fake.Node("HUE_SAT", {"Hue": 0.5, "Color": rgb(RED)})))
+        self.assertEqual((found["color"], len(result.notes)), ([0.8, 0.2, 0.1], 1))
+        found, result = self.environment(self.background(rgb(RED), value(0.5)))
+        self.assertEqual((found, result.notes), ({"scale": 0.5, "color": [0.8, 0.2, 0.1]}, []))
+
+    def test_the_branch_that_lights_is_taken(self):
+        rays = fake.Node("LIGHT_PATH", outputs=("Is Camera Ray",))
+        lit, seen = self.background(self.sky()), self.background(GREY)
+        found, result = self.environment(fake.mix((rays, "Is Camera Ray"), lit, seen))
+        self.assertEqual((found["image"], len(result.notes)), ("world.exr", 1))
+        found, result = self.environment(fake.mix(fake.Node("TEX_NOISE"), seen, lit))
+        self.assertEqual((found["image"], len(result.notes)), ("world.exr", 1))
+        found, result = self.environment(fake.mix(1.0, lit, seen))
+        self.assertEqual((found["color"], result.notes), ([0.5] * 3, []))
+
+    def test_mappings_that_mirror_are_said(self):
+        for mapping, said in (({"Scale": (1.0, 1.0, 1.0)}, 0), ({"Scale": (-1.0, 1.0, 1.0)}, 1), ({"Scale": (-1.0, -1.0, -1.0)}, 1),
+                              ({"Location": (0.1, 0.0, 0.0)}, 1)):
+            self.assertEqual(len(self.environment(self.background(self.sky(**mapping)))[1].notes), said)
+
+    def test_view_layers_without_their_environment_are_dark(self):
+        scene = fake.scene()
+        scene.world = fake.world(self.background(GREY))
+        for lit in (True, False):
+            document = scene_settings.write(scene, (), (), (), view_layer=fake.view_layer(use_sky=lit)).document
+            self.assertEqual(("environment" in document, document.get("studio")), (lit, None if lit else False))
+
+
+class Materials(unittest.TestCase):
+    def material(self, shader, closed=True, whole=False, blend="HASHED", **ends):
+        result, item = Written(), fake.material("M", shader, **ends)
+        item.blend_method = blend
+        return scene_settings.material(item, closed, result, whole), result
+
+    def test_nothing_becomes_white_metal(self):
+        black, matte = {"diffuse": {"albedo": [0.0] * 3}}, {"diffuse": {"albedo": [0.5] * 3}}
+        self.assertEqual(self.material(None)[0], black)
+        self.assertEqual(len(self.material(None)[1].notes), 1)
+        empty = fake.SimpleNamespace(name="M", use_nodes=True, node_tree=fake.SimpleNamespace(nodes=[]))
+        self.assertEqual(scene_settings.material(empty, True, Written()), black)
+        toon, result = self.material(fake.Node("BSDF_TOON", {"Color": GREY}))
+        self.assertEqual((toon, len(result.notes)), (matte, 1))
+        self.assertEqual(self.material(fake.Node("SCRIPT"))[0], {"diffuse": {"albedo": [0.8] * 3}})
+        self.assertEqual(self.material(emission(strength=0.0))[0], black | {"emission": {"color": [0.5] * 3, "strength": 0.0}})
+
+    def test_groups_have_all_factors(self):
+        shader = fake.group(fake.principled(Base_Color=fake.Node("GROUP_INPUT", outputs=("Tint",)), Roughness=1.0, Metallic=0.0,
+                                            Specular=0.25, Emission=(0, 0, 0, 1), Alpha=0.5), Tint=RED)
+        found, result = self.material(shader)
+        self.assertEqual((found["base_color"], found["metallic"], found["roughness"], found["specular"]), ([0.8, 0.2, 0.1], 0.0, 1.0, 0.5))
+        self.assertEqual((result.alphas, result.blended, result.notes), ({"M": 0.5}, {"M"}, []))
+        override = self.material(fake.principled(Base_Color=RED, Metallic=1.0, Roughness=0.2, Emission=RED), whole=True)[0]
+        self.assertEqual((override["base_color"], override["metallic"]), ([0.8, 0.2, 0.1], 1.0))
+
+    def test_images_of_shaders_that_the_exporter_does_not_know_come_along(self):
+        found, result = self.material(diffuse(fake.texture(fake.image("bark"))))
+        self.assertEqual((found, result.textures["M"][0].name, result.notes),
+                         ({"base_color": [1.0] * 3, "metallic": 0.0, "roughness": 1.0, "specular": 0.0}, "bark", []))
+        found, result = self.material(diffuse(fake.Node("TEX_NOISE", {"Scale": 5.0}, ("Color",))))
+        self.assertEqual((found, len(result.notes)), ({"diffuse": {"albedo": [0.8] * 3}}, 2))
+
+    def test_shaders_of_one_lobe(self):
+        self.assertEqual(self.material(diffuse(rgb(RED)))[0], {"diffuse": {"albedo": [0.8, 0.2, 0.1]}})
+        glossy = self.material(fake.Node("BSDF_GLOSSY", {"Color": RED, "Roughness": value(0.4)}))[0]
+        self.assertEqual(glossy, {"base_color": [0.8, 0.2, 0.1], "metallic": 1.0, "roughness": 0.4})
+        leaf = self.material(fake.Node("BSDF_TRANSLUCENT", {"Color": RED}))[0]
+        self.assertEqual((leaf["diffuse_transmission"], leaf["diffuse_transmission_color"]), (1.0, [0.8, 0.2, 0.1]))
+        self.assertEqual(self.material(fake.Node("BSDF_REFRACTION", {"Color": GREY, "Roughness": 0.0, "IOR": 1.3}))[0]["transmission"], 1.0)
+        wax = self.material(fake.Node("SUBSURFACE_SCATTERING", {"Color": RED, "Scale": 0.1, "Radius": (1.0, 0.5, 0.2)}))[0]
+        self.assertEqual(wax["subsurface"]["radius"], [0.1, 0.05, 0.020000000000000004])
+        self.assertEqual(self.material(transparent())[1].alphas, {"M": 0.0})
+        self.assertEqual(len(self.material(transparent(RED))[1].notes), 1)
+
+    def test_mixes_with_transparency_are_coverage(self):
+        self.assertEqual(self.material(fake.mix(0.25, transparent(), diffuse()))[1].alphas, {"M": 0.25})
+        self.assertEqual(self.material(fake.mix(0.25, diffuse(), transparent()))[1].alphas, {"M": 0.75})
+        leaves = fake.image("leaves")
+        cut = fake.mix((fake.texture(leaves), "Alpha"), transparent(), diffuse(fake.texture(leaves)))
+        self.assertEqual((self.material(cut)[1].textures, self.material(cut)[1].notes), ({"M": (leaves, True)}, []))
+        other = fake.mix(fake.Node("TEX_NOISE"), transparent(), diffuse())
+        self.assertIn("nothing is transparent", self.material(other)[1].notes[0])
+
+    def test_of_other_mixes_the_heavier_part_is_taken(self):
+        found, result = self.material(fake.mix(0.75, diffuse(RED), diffuse()))
+        self.assertEqual((found, len(result.notes)), ({"diffuse": {"albedo": [0.5] * 3}}, 1))
+        for share in (0.0, 1.0):
+            found, result = self.material(fake.mix(share, diffuse((share,) * 4), diffuse((1.0 - share,) * 4)))
+            self.assertEqual((found, result.notes), ({"diffuse": {"albedo": [0.0] * 3}}, []))
+        glow = self.material(fake.Node("ADD_SHADER", {"Shader": diffuse(), "Shader__2": emission(RED, 4.0)}))[0]
+        self.assertEqual(glow["emission"], {"color": [0.8, 0.2, 0.1], "strength": 4.0})
+        self.assertEqual(glow["diffuse"], {"albedo": [0.5] * 3})
+
+    def test_height_images_are_no_maps_of_normals(self):
+        bumpy = fake.principled(Normal=fake.Node("BUMP", {"Height": fake.texture(fake.image())}))
+        result = self.material(bumpy)[1]
+        self.assertEqual((result.unbumped, len(result.notes)), ({"M"}, 1))
+        mapped = fake.principled(Normal=fake.Node("NORMAL_MAP", {"Color": fake.texture(fake.image())}))
+        result = self.material(mapped)[1]
+        self.assertEqual((result.unbumped, result.notes), (set(), []))
+
+    def test_value_nodes_are_no_textures(self):
+        found = self.material(fake.principled(Transmission=value(1.0), Roughness=fake.Node("REROUTE", {"Input": value(0.1)}), Sheen=value(1.0),
+                                              Base_Color=rgb(RED)))[0]
+        self.assertEqual((found["transmission"], found["roughness"], found["base_color"]), (1.0, 0.1, [0.8, 0.2, 0.1]))
+        self.assertGreater(max(found["sheen_color"]), 0.1)
+
+    def test_a_coat_by_a_texture_has_a_quarter_of_its_light_too(self):
+        self.assertEqual(self.material(fake.principled(Clearcoat=fake.texture(fake.image())))[0]["clearcoat"], 0.25)
+
+    def test_alpha_that_eevee_clips_is_coverage(self):
+        self.assertEqual(self.material(fake.principled(), blend="CLIP")[1].blended, {"M"})
+
+    def test_textures_that_lie_otherwise_are_said(self):
+        def notes(picture, vector=None, **properties):
+            texture = fake.texture(picture, vector, **properties)
+            return self.material(fake.principled(Base_Color=fake.Node("MIX_RGB", {"Color": texture})))[1].notes
+
+        here = fake.image()
+        self.assertEqual(notes(here), ["material 'M': nodes that are not brought over: 'MIX_RGB'"])
+        coordinates = fake.Node("TEX_COORD", outputs=("UV", "Object"))
+        for output, said in (("UV", 1), ("Object", 2)):
+            self.assertEqual(len(notes(here, fake.Node("MAPPING", {"Vector": (coordinates, output)}))), said)
+        for picture, properties in ((None, {}), (fake.image(size=(0, 0)), {}), (fake.image(source="SEQUENCE"), {}),
+                                    (here, {"projection": "BOX"}), (here, {"extension": "CLIP"})):
+            self.assertEqual(len(notes(picture, **properties)), 2)
+        bright = self.material(fake.principled(Emission=fake.texture(fake.image(is_float=True))))[1]
+        self.assertIn("up to 1 alone", bright.notes[0])
+
+
+class Volumes(unittest.TestCase):
+    def scatter(self, color=GREY, density=2.0, forward=0.0):
+        return fake.Node("VOLUME_SCATTER", {"Color": color, "Density": density, "Anisotropy": forward})
+
+    def absorption(self, color=GREY, density=2.0):
+        return fake.Node("VOLUME_ABSORPTION", {"Color": color, "Density": density})
+
+    def coefficients(self, volume):
+        """Scattering and extinction that the program makes of the factors."""
+        found = volumes.medium(nodes.Seen(volume))
+        extinction = [-math.log(channel) / found["attenuation_distance"] for channel in found["attenuation_color"]]
+        forward, albedo = found.get("scatter_anisotropy", 0.0), []
+        for color in found.get("multiscatter_color", [0.0] * 3):
+            s = 4.09712 + 4.20863 * color - math.sqrt(9.59217 + 41.6808 * color + 17.7126 * color ** 2)
+            albedo.append(max((1.0 - s * s) / (1.0 - forward * s * s), 0.0))
+        return [a * b for a, b in zip(albedo, extinction)] + extinction
+
+    def test_media_are_those_of_cycles(self):
+        principled = fake.Node("PRINCIPLED_VOLUME", {"Color": GREY, "Density": value(4.0), "Anisotropy": 0.5, "Absorption Color": (0.0,) * 4})
+        both = fake.Node("ADD_SHADER", {"Shader": self.scatter(forward=0.3), "Shader__2": self.absorption(density=6.0)})
+        for volume, scattering, extinction in ((self.scatter(), 1.0, 1.0), (self.absorption(), 0.0, 1.0), (principled, 2.0, 4.0),
+                                               (both, 1.0, 4.0)):
+            for found, wanted in zip(self.coefficients(volume), [scattering] * 3 + [extinction] * 3):
+                self.assertAlmostEqual(found, wanted, places=3)
+
+    def fog(self, volume, surface=None, closed=True):
+        result = Written()
+        return scene_settings.material(fake.material("M", surface, Volume=volume), closed, result), result
+
+    def test_fog_is_a_body_without_a_surface(self):
+        found, result = self.fog(self.scatter())
+        self.assertEqual((found["ior"], found["solid"], found["transmission"], result.notes), (1.0, True, 1.0, []))
+        for volume, closed in ((self.scatter(density=fake.Node("ATTRIBUTE")), True), (self.scatter(), False)):
+            found, result = self.fog(volume, closed=closed)
+            self.assertEqual((found, result.left_out, len(result.notes)), ({}, {"M"}, 1))
+
+    def test_glass_is_filled(self):
+        found = self.fog(self.absorption(), fake.principled(Transmission=1.0, IOR=1.45))[0]
+        self.assertAlmostEqual(found["attenuation_distance"], 1.0)
+        self.assertNotIn("attenuation_distance", self.fog(self.absorption(), fake.principled())[0])
+
+
+class Document(unittest.TestCase):
+    """Changes of the GLB."""
+
+    def document(self):
+        return {"materials": [{"name": "A", "alphaMode": "MASK", "alphaCutoff": 0.5, "normalTexture": {"index": 0}}, {"name": "B"}],
+                "meshes": [{"primitives": [{"material": 0}, {"material": 1}]}, {"primitives": [{"material": 1}]}],
+                "nodes": [{"mesh": 0}, {"mesh": 1}]}
+
+    def mend(self, **changes):
+        document = self.document()
+        binary = glb_materials.mend(document, b"12345", Written(**changes), lambda image: (b"PNG", "image/png"))
+        return document, binary
+
+    def test_alpha_bumps_and_sides(self):
+        document, _ = self.mend(blended={"A"}, alphas={"A": 0.5}, unbumped={"A"})
+        self.assertEqual(document["materials"], [
+            {"name": "A", "alphaMode": "BLEND", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [1.0, 1.0, 1.0, 0.5]}},
+            {"name": "B", "doubleSided": True}])
+
+    def test_fog_that_is_not_read_is_left_out(self):
+        document, _ = self.mend(left_out={"B"})
+        self.assertEqual((document["meshes"][0]["primitives"], document["nodes"]), ([{"material": 0}], [{"mesh": 0}, {}]))
+
+    def test_one_material_for_all(self):
+        document = self.document()
+        glb_materials.override(document, "Clay")
+        self.assertEqual([primitive["material"] for mesh in document["meshes"] for primitive in mesh["primitives"]], [2, 2, 2])
+
+    def test_images_are_added_once(self):
+        picture = fake.image("bark")
+        document, binary = self.mend(textures={"A": (picture, True), "B": (picture, False)})
+        self.assertEqual(binary, b"12345\0\0\0PNG")
+        self.assertEqual(document["bufferViews"], [{"buffer": 0, "byteOffset": 8, "byteLength": 3}])
+        self.assertEqual((document["textures"], document["images"][0]["mimeType"]), ([{"source": 0}], "image/png"))
+        self.assertEqual([material["pbrMetallicRoughness"]["baseColorTexture"]["index"] for material in document["materials"]], [0, 0])
+        self.assertEqual([material.get("alphaMode") for material in document["materials"]], ["BLEND", None])
+
+    @unittest.skipIf(numpy is None, "numpy, which Blender brings, is not here")
+    def test_pixels_become_a_png(self):
+        import struct
+        import zlib
+        found = images.png(numpy.arange(8, dtype=numpy.uint8).reshape(1, 2, 4))
+        self.assertEqual(struct.unpack_from(">II", found, 16), (2, 1))
+        size, = struct.unpack_from(">I", found, 33)
+        self.assertEqual(zlib.decompress(found[41:41 + size]), bytes([0, *range(8)]))
+
+
+class Overlooked(unittest.TestCase):
+    def notes(self, *items, moves=False):
+        return overlooked.notes(items, fake.view_layer(), moves)
+
+    def test_each_is_said_once_with_the_names(self):
+        flags = {"visible_shadow": False, "holdout_get": lambda view_layer: True, "cycles": fake.SimpleNamespace(use_motion_blur=False)}
+        items = [fake.item(name, None, "MESH", **flags) for name in "fbcade"]
+        found = self.notes(*items, moves=True)
+        self.assertEqual(len(found), 3)
+        for text in found:
+            self.assertTrue(text.endswith(": 'a', 'b', 'c', 'd' and 2 more"), text)
+        self.assertEqual(len(self.notes(*items)), 2)
+        self.assertEqual(self.notes(fake.item("a", None, "MESH")), [])
+
+    def test_volumes_hair_and_lamps(self):
+        hair = fake.SimpleNamespace(settings=fake.SimpleNamespace(type="HAIR", render_type="PATH"))
+        lamp = fake.light("POINT", cycles=fake.SimpleNamespace(cast_shadow=False))
+        found = self.notes(fake.item("Smoke", None, "VOLUME"), fake.item("Head", None, "MESH", particle_systems=[hair]),
+                           fake.item("Lamp", lamp, "LIGHT"))
+        self.assertEqual([text.split(": ")[1] for text in found], ["'Smoke'", "'Head'", "'Lamp'"])
+
+    def test_shadow_catchers_are_for_paths(self):
+        items, said = [fake.item("Floor", None, "MESH", is_shadow_catcher=True), fake.item("Cube", None, "MESH")], []
+        self.assertEqual(list(overlooked.shadow_catchers(items, "path", said.append)), ["Floor"])
+        self.assertEqual((list(overlooked.shadow_catchers(items, "vcm", said.append)), len(said)), ([], 1))
+
+    def test_collections_hide_from_the_camera(self):
+        hidden = fake.item("A", None, "MESH", indirect_only_get=lambda view_layer: True)
+        self.assertTrue(overlooked.is_indirect_only(hidden, None))
+        self.assertFalse(overlooked.is_indirect_only(fake.item("B", None, "MESH"), None))
+
+    def test_panoramas_with_limits_are_said(self):
+        def notes(**limits):
+            settings = fake.SimpleNamespace(panorama_type="EQUIRECTANGULAR", latitude_min=-0.5 * math.pi, latitude_max=0.5 * math.pi,
+                                            longitude_min=-math.pi, longitude_max=math.pi)
+            vars(settings).update(limits)
+            result = Written()
+            scene_settings.camera_settings(fake.camera("PANO", cycles=settings), result, 2, 1)
+            return result.notes
+
+        self.assertEqual((len(notes()), len(notes(longitude_max=1.0))), (0, 1))
+
+
+@unittest.skipIf(PROGRAM is None, "no program was given")
+class WithTheProgram(unittest.TestCase):
+    def test_it_knows_every_key(self):
+        scatter = fake.Node("VOLUME_SCATTER", {"Color": GREY, "Density": 1.0, "Anisotropy": 0.1})
+        shaders = (fake.group(fake.principled(Base_Color=RED, Transmission=0.5, Emission=RED, Specular=0.5)), emission(),
+                   fake.Node("BSDF_TRANSLUCENT", {"Color": RED}), fake.mix(0.5, transparent(), diffuse()),
+                   fake.Node("SUBSURFACE_SCATTERING", {"Color": RED, "Scale": 0.1, "Radius": (1.0, 0.5, 0.2)}))
+        items = [(fake.material(f"M{index}", shader), True) for index, shader in enumerate(shaders)]
+        items.append((fake.material("Fog", None, Volume=scatter), True))
+        document = scene_settings.write(fake.scene(), (), items, ()).document
+        self.assertEqual(len(document["materials"]), 6)
+        self.assertEqual(program.known_part(PROGRAM, document)[1], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
