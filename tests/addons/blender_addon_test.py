@@ -283,14 +283,14 @@ class Glb(unittest.TestCase):
 
     def test_nodes_get_cameras_and_lamps_of_their_own(self):
         lamp = {glb.LAMPS: {"light": 0}}
-        document = {"cameras": [{"name": "B"}], "extensions": {glb.LAMPS: {"lights": [{"name": "data", "type": "spot"}]}},
+        document = {"cameras": [{"name": "B"}], "extensions": {glb.LAMPS: {"lights": [{"name": "data", "type": "spot", "intensity": -5.0}]}},
                     "nodes": [{"name": "A", "camera": 0}, {"name": "B", "camera": 0}, {"name": "L", "extensions": lamp},
                               {"name": "K", "extensions": {glb.LAMPS: {"light": 0}}}]}
         glb.give_nodes_their_own(document)
         glb.set_spots(document, {"K": (0.1, 0.2)})
         self.assertEqual([camera["name"] for camera in document["cameras"]], ["A", "B"])
         lights = document["extensions"][glb.LAMPS]["lights"]
-        self.assertEqual([light["name"] for light in lights], ["L", "K"])
+        self.assertEqual([(light["name"], light["intensity"]) for light in lights], [("L", 0.0), ("K", 0.0)])
         self.assertNotIn("spot", lights[0])
         self.assertEqual(lights[1]["spot"], {"innerConeAngle": 0.1, "outerConeAngle": 0.2})
 

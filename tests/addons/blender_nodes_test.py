@@ -57,6 +57,9 @@ class Constants(unittest.TestCase):
         self.assertEqual(self.seen(muted).value("Color"), [0.8, 0.2, 0.1])
         muted.mute = False
         self.assertIsNone(self.seen(muted).value("Color"))
+        circle = fake.Node("REROUTE", {"Input": rgb(RED)})
+        circle.inputs[0].links[0] = fake.SimpleNamespace(from_node=circle, from_socket=circle.outputs[0], is_valid=False)
+        self.assertEqual(self.seen(circle).value("Color"), None)
 
     def test_numbers_and_colours_are_made_of_each_other(self):
         self.assertEqual(self.seen(value(0.25)).value("Color"), [0.25] * 3)
@@ -238,6 +241,15 @@ class Materials(unittest.TestCase):
         self.assertEqual((found["transmission"], found["roughness"], found["base_color"]), (1.0, 0.1, [0.8, 0.2, 0.1]))
         self.assertGreater(max(found["sheen_color"]), 0.1)
 
+    def test_procedural_inputs_are_neither_white_nor_metal_nor_light(self):
+        noise = fake.Node("TEX_NOISE", {"Scale": 5.0}, ("Color",))
+        found, result = self.material(fake.principled(Base_Color=noise, Metallic=noise, Roughness=noise, Transmission=noise, Emission=noise))
+        self.assertEqual(found, {"base_color": [0.8] * 3, "metallic": 0.0, "roughness": 0.5, "transmission": 0.0,
+                                 "emission": {"color": [0.0] * 3}})
+        self.assertIn("material 'M': nodes that are not brought over: 'TEX_NOISE'", result.notes)
+        painted = fake.principled(Base_Color=fake.Node("VERTEX_COLOR", outputs=("Color",)), Metallic=fake.texture(fake.image()))
+        self.assertEqual(self.material(painted)[0], {})
+
     def test_a_coat_by_a_texture_has_a_quarter_of_its_light_too(self):
         self.assertEqual(self.material(fake.principled(Clearcoat=fake.texture(fake.image())))[0]["clearcoat"], 0.25)
 
@@ -351,17 +363,20 @@ class Document(unittest.TestCase):
 
 
 class Overlooked(unittest.TestCase):
-    def notes(self, *items, moves=False):
-        return overlooked.notes(items, fake.view_layer(), moves)
+    def notes(self, *items, **flags):
+        return overlooked.notes(items, fake.view_layer(**flags))
 
     def test_each_is_said_once_with_the_names(self):
-        flags = {"visible_shadow": False, "holdout_get": lambda view_layer: True, "cycles": fake.SimpleNamespace(use_motion_blur=False)}
+        flags = {"visible_shadow": False, "holdout_get": lambda view_layer: True,
+                 "light_linking": fake.SimpleNamespace(receiver_collection="C", blocker_collection=None)}
         items = [fake.item(name, None, "MESH", **flags) for name in "fbcade"]
-        found = self.notes(*items, moves=True)
+        found = self.notes(*items)
         self.assertEqual(len(found), 3)
         for text in found:
             self.assertTrue(text.endswith(": 'a', 'b', 'c', 'd' and 2 more"), text)
-        self.assertEqual(len(self.notes(*items)), 2)
+        self.assertEqual(self.notes(lightgroups=[fake.SimpleNamespace(name="Key")]), ["light groups are not brought over: 'Key'"])
+        self.assertFalse(overlooked.moves_blurred(fake.item("a", None, "MESH", cycles=fake.SimpleNamespace(use_motion_blur=False))))
+        self.assertTrue(overlooked.moves_blurred(None))
         self.assertEqual(self.notes(fake.item("a", None, "MESH")), [])
 
     def test_volumes_hair_and_lamps(self):

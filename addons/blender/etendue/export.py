@@ -334,9 +334,11 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     hidden = {name for name, item in items.items() if item.type in SURFACES
               and (not getattr(item, "visible_camera", True) or overlooked.is_indirect_only(item, view_layer))}
     add_entries(written.document, glb.give_own_materials(document, hidden, "hidden from the camera"), {"visible_to_camera": False})
+    motions = {number: motion for number, motion in motions.items()
+               if overlooked.moves_blurred(items.get(document["nodes"][number].get("name")))}
     binary = glb.add_motion(document, binary, times, motions)
     glb.write_glb(file, document, binary)
-    result = Exported(folder, gltf=document, notes=written.notes + overlooked.notes(items.values(), view_layer, moves))
+    result = Exported(folder, gltf=document, notes=written.notes + overlooked.notes(items.values(), view_layer))
     result.notes += [f"lamp '{item.name}': area lamps in instances are not brought over" for name, item in items.items()
                      if item.type == "LIGHT" and item.data.type == "AREA" and name not in single]
     if written.world_image is not None:

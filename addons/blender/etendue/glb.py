@@ -65,6 +65,8 @@ def give_nodes_their_own(document: Document) -> None:
         document["cameras"] = own_cameras
     if own_lamps:
         document["extensions"][LAMPS]["lights"] = own_lamps
+    for lamp in own_lamps:
+        lamp["intensity"] = max(lamp.get("intensity", 1.0), 0.0)  # render.json has the strength
 
 
 def leave_out(document: Document, shown: Collection[str]) -> list[str]:

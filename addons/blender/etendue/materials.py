@@ -249,7 +249,7 @@ class Reader:
         if wax is not None:
             return wax
         result = self.unseen(shader)
-        transmission = shader.value(*TRANSMISSION, default=0.0)
+        transmission = result.get("transmission", shader.value(*TRANSMISSION, default=0.0))
         if transmission is None or transmission > 0.0:
             if self.closed:
                 result["solid"] = True
@@ -285,7 +285,7 @@ class Reader:
             value = shader.value(*names, default=usual)
             if value is not None and (hidden or shader.is_linked(*names)):
                 result[key] = min(max(value, 0.0), 1.0)
-            elif value is None and hidden:
+            elif value is None and (hidden or behind(shader.source(*names), "TEX_IMAGE") is None):
                 self.note(f"what is linked to '{names[-1]}' of '{shader.name}' is not brought over")
                 result[key] = usual
         color = shader.value(*COLOR)
@@ -301,8 +301,16 @@ class Reader:
                 self.note(f"the light of '{shader.name}' is not brought over")
             else:
                 result["emission"] = {"color": [max(channel, 0.0) for channel in light], "strength": max(strength, 0.0)}
-        elif color is not None and shader.is_linked(*COLOR):
+            return result
+        if color is not None and shader.is_linked(*COLOR):
             result["base_color"] = clamped(color)
+        elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", "VERTEX_COLOR", "ATTRIBUTE") is None:
+            self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
+            result["base_color"] = GREY
+        # The exporter has white light where it cannot read the colour.
+        if shader.value(*EMISSION, default=BLACK) is None and behind(shader.source(*EMISSION), "TEX_IMAGE") is None:
+            self.note(f"the light of '{shader.name}' is not brought over")
+            result["emission"] = {"color": BLACK}
         return result
 
     def check_normals(self, shader: Seen) -> None:

@@ -49,8 +49,7 @@ class Seen:
                 yield socket.name, found
 
     def is_linked(self, *names: str | int) -> bool:
-        socket = self.socket(*names)
-        return socket is not None and socket.is_linked
+        return link_to(self.socket(*names)) is not None
 
     def value(self, *names: str | int, default: Any = None) -> Any:
         """Returns the constant that an input has, three numbers for a colour; None where it has none, `default` where there
@@ -94,10 +93,17 @@ def fitted(value: Any, socket: Any) -> Any:
     return [value] * 3 if wide and isinstance(value, (int, float)) else value
 
 
+def link_to(socket: Any) -> Any:
+    """Returns the link that counts, None if none does: muted ones and circles do not."""
+    if socket is None or not socket.is_linked:
+        return None
+    return next((link for link in socket.links if getattr(link, "is_valid", True) and not getattr(link, "is_muted", False)), None)
+
+
 def follow(socket: Any, groups: tuple[Any, ...]) -> tuple[Seen | None, Any]:
     """Returns the node that feeds an input; or None and the input that has the value, which is None if nothing has."""
-    while socket is not None and socket.is_linked:
-        node, output = socket.links[0].from_node, socket.links[0].from_socket
+    while (link := link_to(socket)) is not None:
+        node, output = link.from_node, link.from_socket
         if node.type == "REROUTE":
             socket = node.inputs[0]
         elif getattr(node, "mute", False):
@@ -126,12 +132,12 @@ def active_output(tree: Any, kind: str) -> Any:
     return None
 
 
-def behind(seen: Seen | None, kind: str) -> Seen | None:
-    """Returns the nearest node of this kind that a node's colour comes from."""
+def behind(seen: Seen | None, *kinds: str) -> Seen | None:
+    """Returns the nearest node of one of these kinds that a node's colour comes from."""
     waiting, known = [seen] if seen is not None else [], set()
     while waiting:
         found = waiting.pop(0)
-        if found.type == kind:
+        if found.type in kinds:
             return found
         if place(found) not in known:
             known.add(place(found))

@@ -14,8 +14,8 @@ RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_vo
 SURFACES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 
 
-def notes(items: Iterable[Any], view_layer: Any, moves: bool) -> list[str]:
-    """Says what is lost of these objects; `moves`: motion is blurred."""
+def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
+    """Says what is lost of these objects and of the view layer."""
     items = list(items)
     tests: list[tuple[Callable[[Any], bool], str]] = [
         (lambda item, kind=kind: item.type == kind, f"{name} are not brought over") for kind, name in KINDS.items()]
@@ -26,9 +26,12 @@ def notes(items: Iterable[Any], view_layer: Any, moves: bool) -> list[str]:
               (casts_no_shadow, "lamps cast shadows even where they should not"),
               (lambda item: getattr(item, "is_holdout", False) or asks(item, "holdout_get", view_layer),
                "holdouts are not brought over"),
-              (lambda item: moves and item.type in SURFACES and not cycles(item, "use_motion_blur", True),
-               "Motion Blur is not brought over where it is off for objects")]
-    return [f"{text}: {listed(names)}" for test, text in tests if (names := sorted({item.name for item in items if test(item)}))]
+              (lambda item: any(getattr(getattr(item, "light_linking", None), name, None) is not None
+                                for name in ("receiver_collection", "blocker_collection")),
+               "light linking is not brought over")]
+    groups = sorted(group.name for group in getattr(view_layer, "lightgroups", ()))
+    said = [f"light groups are not brought over: {listed(groups)}"] if groups else []
+    return said + [f"{text}: {listed(names)}" for test, text in tests if (names := sorted({item.name for item in items if test(item)}))]
 
 
 def listed(names: list[str]) -> str:
@@ -36,8 +39,9 @@ def listed(names: list[str]) -> str:
     return ", ".join(f"'{name}'" for name in names[:SHOWN]) + more
 
 
-def cycles(thing: Any, name: str, default: Any) -> Any:
-    return getattr(getattr(thing, "cycles", None), name, default)
+def moves_blurred(item: Any) -> bool:
+    """Returns whether an object has its Motion Blur on."""
+    return getattr(getattr(item, "cycles", None), "use_motion_blur", True)
 
 
 def asks(item: Any, method: str, view_layer: Any) -> bool:

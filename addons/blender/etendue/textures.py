@@ -41,12 +41,12 @@ def all_behind(shader: Seen) -> Iterator[Seen]:
 
 def notes_of_image(texture: Seen) -> Iterator[str]:
     node: Any = texture.node
-    if node.image is None or tuple(node.image.size) == (0, 0):
+    if node.image is not None and node.image.source in SOURCES:
+        yield f"the image '{node.image.name}' is {SOURCES[node.image.source]}, which is not brought over"
+    elif node.image is None or tuple(node.image.size) == (0, 0):
         yield f"the image of '{texture.name}' is missing"
         return
     name = node.image.name
-    if node.image.source in SOURCES:
-        yield f"the image '{name}' is {SOURCES[node.image.source]}, which is not brought over"
     if node.projection != "FLAT":
         yield f"the image '{name}' is laid by {node.projection.lower()} projection, which is not brought over"
     if node.extension == "CLIP":
