@@ -353,6 +353,11 @@ class Passes(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "'depth' is no layer"):
             list(passes.extra_layers("depth"))
 
+    def test_layers_of_the_users_take_no_pass_of_blenders(self):
+        for text in ("Depth=light:Key", "Combined=lpe:C D L", "AO=light:Key", "CryptoObject01=light:Key", "a=light:A; a=light:B"):
+            with self.assertRaisesRegex(ValueError, "the name of another pass"):
+                list(passes.extra_layers(text))
+
     def test_keys_of_mattes_are_those_of_the_specification(self):
         # As docs/cryptomatte.md shows it, and the vectors of MurmurHash3.
         self.assertEqual(passes.matte_key("CryptoObject"), "3ae39a5")
@@ -384,7 +389,11 @@ class Pixels(unittest.TestCase):
         _, normal = next(row for row in passes.STANDARD if row[1].name == "Normal")
         self.assertEqual(pixels.pixels_of(self.exr(N__X=1.0, N__Y=2.0, N__Z=3.0), normal, {})[1, 0].tolist(), [1.0, -3.0, 2.0])
         _, uv = next(row for row in passes.STANDARD if row[1].name == "UV")
-        self.assertEqual(pixels.pixels_of(self.exr(uv__U=0.25, uv__V=0.75, A=1.0), uv, {})[1, 0].tolist(), [0.25, 0.25, 1.0])
+        self.assertIn("depth", passes.sources([uv], False))
+        found = pixels.pixels_of(self.exr(uv__U=0.25, uv__V=0.75, depth__Z=3.0, A=1.0), uv, {})
+        self.assertEqual(found[1, 0].tolist(), [0.25, 0.25, 1.0])
+        nothing = pixels.pixels_of(self.exr(uv__U=0.0, uv__V=0.0, depth__Z=1e10, A=1.0), uv, {})
+        self.assertEqual(nothing[1, 0].tolist(), [0.0, 0.0, 0.0])
         _, diffuse = next(row for row in passes.STANDARD if row[1].name == "DiffDir")
         light = {f"diffuse_direct__{letter}": 3.0 for letter in "RGB"} | {f"albedo_diffuse__{letter}": 1.0 for letter in "RGB"}
         self.assertEqual(pixels.pixels_of(self.exr(**light), diffuse, {})[0, 0].tolist(), [2.0, 2.0, 2.0])

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-# Changes of the numbers on their way: none; Y up to Z up; over the diffuse albedo; ones; V up; Blender's pass index in place
-# of the program's number.
+# Changes of the numbers on their way: none; Y up to Z up; over the diffuse albedo; ones; V up, and whether there is anything;
+# Blender's pass index in place of the program's number.
 AS_IS, TO_Z_UP, OVER_ALBEDO, WHITE, UV, INDEX = "as is", "to z up", "over albedo", "white", "uv", "index"
 
 
@@ -62,15 +62,27 @@ OWN = (
 MATTES = (("use_pass_cryptomatte_object", "CryptoObject", "cryptomatte_object"),
           ("use_pass_cryptomatte_material", "CryptoMaterial", "cryptomatte_material"),
           ("use_pass_cryptomatte_asset", "CryptoAsset", "cryptomatte_asset"))
+# Passes of Blender's that this add-on does not offer.
+BLENDERS = ("AO", "Shadow", "SubsurfaceDir", "SubsurfaceInd", "SubsurfaceCol", "Denoising Normal", "Denoising Albedo", "Debug Sample Count")
 EXTRA = re.compile(r"^([A-Za-z0-9_-]{1,100})=((?:lpe|light):.+)$")
+
+
+def is_taken(name: str) -> bool:
+    """Returns whether Blender or this add-on has a pass of that name."""
+    own = {item.name for _, item in (*STANDARD, *OWN)} | {"Combined", *BLENDERS}
+    return name in own or any(re.fullmatch(rf"{matte}\d\d", name) for _, matte, _ in MATTES)
 
 
 def extra_layers(text: str) -> Iterator[Pass]:
     """Layers of the user's, such as `key=light:Key; glass=lpe:C T .* L`."""
+    names: set[str] = set()
     for item in filter(None, (item.strip() for item in text.split(";"))):
         match = EXTRA.match(item)
         if match is None:
             raise ValueError(f"'{item}' is no layer: write NAME=lpe:EXPRESSION or NAME=light:NAME")
+        if is_taken(match.group(1)) or match.group(1) in names:
+            raise ValueError(f"the layer '{item}' has the name of another pass: give it a name of its own")
+        names.add(match.group(1))
         yield Pass(match.group(1), "RGB", "COLOR", item, layer=match.group(1))
 
 
@@ -93,6 +105,8 @@ def sources(passes: list[Pass], denoise: bool) -> list[str]:
     result = [item.source for item in passes if item.source]
     if any(item.change == OVER_ALBEDO for item in passes):
         result.append("albedo_diffuse")
+    if any(item.change == UV for item in passes):
+        result.append("depth")
     if denoise:
         result.append("denoising")
     return list(dict.fromkeys(result))

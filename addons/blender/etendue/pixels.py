@@ -10,6 +10,8 @@ import numpy
 from .exr import Exr
 from .passes import AS_IS, INDEX, OVER_ALBEDO, TO_Z_UP, UV, WHITE, Pass
 
+NOTHING = numpy.float32(1e10)  # the program's depth where there is nothing
+
 
 def planes(exr: Exr, names: list[str]) -> numpy.ndarray | None:
     """These channels as rows from the bottom up, which Blender has; None if the file lacks one."""
@@ -53,10 +55,13 @@ def pixels_of(exr: Exr, item: Pass, given: Mapping[str, Mapping[str, int]]) -> n
     if item.change == TO_Z_UP:
         return numpy.stack([result[..., 0], -result[..., 2], result[..., 1]], axis=-1)
     if item.change == UV:
-        covered = planes(exr, ["A"])
-        covered = numpy.ones_like(result[..., :1]) if covered is None else (covered > 0.0).astype(numpy.float32)
+        depth = planes(exr, ["depth.Z"])
+        if depth is None:
+            return None
+        covered = depth < NOTHING
         # glTF counts v from the top.
-        return numpy.concatenate([result[..., :1], (1.0 - result[..., 1:]) * covered, covered], axis=-1)
+        uva = numpy.concatenate([result[..., :1], 1.0 - result[..., 1:], numpy.ones_like(depth)], axis=-1)
+        return numpy.where(covered, uva, numpy.float32(0.0))
     assert item.change == OVER_ALBEDO
     albedo = planes(exr, [f"albedo_diffuse.{letter}" for letter in "RGB"])
     return None if albedo is None else numpy.divide(result, albedo, out=numpy.zeros_like(result), where=albedo > 1e-5)
