@@ -11,6 +11,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 import zipfile
 from pathlib import Path
 
@@ -446,8 +447,16 @@ class Program(unittest.TestCase):
                                   ("scene.glb#/materials/0: no", "material 'Red': no"),
                                   ("scene.glb#/materials/1: no", "scene.glb#/materials/1: no"),
                                   ("/tmp/x/scene.glb#/nodes/7: no", "scene.glb#/nodes/7: no"),
-                                  ("/tmp/x/render.json#/spp: no", "render.json#/spp: no")):
+                                  ("/tmp/x/render.json#/spp: no", "render.json#/spp: no"),
+                                  ("/tmp/x/image.exr: bright", "image.exr: bright"),
+                                  ("odd (/tmp/x/render.json#/spp)", "odd (render.json#/spp)"),
+                                  ("odd (scene.glb#/nodes/0/mesh)", "odd (object 'Cube')")):
             self.assertEqual(program.with_names(message, gltf), expected)
+
+    def test_a_program_that_does_not_answer_is_an_error(self):
+        with unittest.mock.patch("subprocess.run", side_effect=program.subprocess.TimeoutExpired("etendue", 60)):
+            with self.assertRaisesRegex(program.ProgramError, "not come to its end"):
+                program.unknown_pointers(self.folder / "etendue", {})
 
     def test_messages(self):
         said = "note: one\nerror: a.json#/spp: two\nand more\nwarning: three\n/tmp/a.exr: 4 spp\n"
@@ -468,6 +477,14 @@ class Program(unittest.TestCase):
         self.assertEqual((ended.code, ended.cancelled, ended.messages), (0, False, [("warning", "odd")]))
         self.assertIn(0.5, seen)
         self.assertEqual(shown[0], "image.preview.png")
+
+    def test_a_preview_that_is_gone_is_not_shown(self):
+        preview = self.folder / "image.preview.png"
+        preview.touch()
+        shown = []
+        child.run([str(self.script(f"sleep 0.2; rm {preview}; sleep 0.2"))], lambda: False, preview=preview,
+                  on_preview=lambda path: shown.append(path.exists()))
+        self.assertEqual(shown, [True])
 
     def test_stopping_ends_it_even_if_it_does_not_listen(self):
         for text, longest in (("exec sleep 60", 1.0), ("trap '' TERM\nwhile :; do sleep 0.05; done", child.PATIENCE + 1.0)):

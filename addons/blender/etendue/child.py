@@ -130,7 +130,7 @@ def run(command: Sequence[str], is_stopped: Callable[[], bool], on_progress: Cal
                 if now - asked >= every and child.ask_for_preview():
                     asked = now
                 changed = preview.stat().st_mtime_ns if preview.exists() else 0
-                if changed != seen:
+                if changed not in (0, seen):
                     seen = changed
                     on_preview(preview)
             time.sleep(STEP)

@@ -18,9 +18,9 @@ PROGRAM = "etendue"
 PREFIXES = ("/usr/local", "/usr", "/opt/etendue", "~/.local")
 UNKNOWN = re.compile(r"^unknown key|there is no source '")
 # Places in messages, `scene.glb#/nodes/3/mesh: `.
-PLACE = re.compile(r"\S*#/(nodes|meshes|materials|cameras|images|textures)/(\d+)\S*?(?=[:,\s]|$)")
-# The folder of the exported scene, of which users know nothing.
-FOLDER = re.compile(r"\S*/(?=(render\.json|scene\.glb)\b)")
+PLACE = re.compile(r"[^\s()'\"]*#/(nodes|meshes|materials|cameras|images|textures)/(\d+)[^\s()'\"]*?(?=[:,\s()'\"]|$)")
+# The folder of the exported scene and of its image, of which users know nothing.
+FOLDER = re.compile(r"[^\s()'\"]*/(?=(render\.json|scene\.glb|image\.exr|denoised\.exr)\b)")
 KINDS = {"nodes": "object", "meshes": "mesh", "materials": "material", "cameras": "camera", "images": "image",
          "textures": "texture"}
 MOST_ROUNDS = 4  # an unknown object hides its keys, which are told of in the next round
@@ -67,8 +67,11 @@ def unknown_pointers(program: Path, document: Document) -> list[str]:
     with tempfile.TemporaryDirectory(prefix="etendue-keys-") as folder:
         (Path(folder) / "scene.gltf").write_text(json.dumps(stub_scene(document)), encoding="utf-8")
         (Path(folder) / "render.json").write_text(json.dumps(document), encoding="utf-8")
-        done = subprocess.run([str(program), "inspect", folder, "--json"], capture_output=True, text=True, check=False,
-                              env=child_environment(), timeout=60)
+        try:
+            done = subprocess.run([str(program), "inspect", folder, "--json"], capture_output=True, text=True, check=False,
+                                  env=child_environment(), timeout=60)
+        except subprocess.TimeoutExpired:
+            raise ProgramError(f"'{program} inspect' has not come to its end in a minute") from None
     try:
         problems = json.loads(done.stdout)["problems"]
     except (ValueError, KeyError):
