@@ -149,15 +149,22 @@ Ray PinholeCamera::generate_ray(Vec2f film, Vec2f) const {
     return ray;
 }
 
-// The density of directions, 1 / (A cos³), times what a facing surface takes of them, 1 / d².
-CameraConnection PinholeCamera::connect(const Vec3f& point, Vec2f) const {
+std::optional<Vec2f> PinholeCamera::project(const Vec3f& point) const {
     const Vec3f to_point = point - pose.position;
     const float depth = dot(to_point, pose.forward);
     if (!(depth > 0.0f)) return {};
+    return to_film(*this, Vec2f(dot(to_point, pose.right) / depth, dot(to_point, pose.up) / depth));
+}
+
+// The density of directions, 1 / (A cos³), times what a facing surface takes of them, 1 / d².
+CameraConnection PinholeCamera::connect(const Vec3f& point, Vec2f) const {
+    const std::optional<Vec2f> film = project(point);
+    if (!film) return {};
+    const Vec3f to_point = point - pose.position;
+    const float depth = dot(to_point, pose.forward);
     const float distance = length(to_point);
-    const Vec2f plane{dot(to_point, pose.right) / depth, dot(to_point, pose.up) / depth};
     return {.lens = pose.position,
-            .film = to_film(*this, plane),
+            .film = *film,
             .importance_area = distance / (4.0f * half_width * half_height * depth * depth * depth)};
 }
 
@@ -184,6 +191,10 @@ Ray ThinLensCamera::generate_ray(Vec2f film, Vec2f lens) const {
     return ray;
 }
 
+std::optional<Vec2f> ThinLensCamera::project(const Vec3f& point) const {
+    return pinhole.project(point);
+}
+
 // Seen from one point of the lens, directions have the density of the pinhole's: the plane of focus is its image plane,
 // enlarged.
 CameraConnection ThinLensCamera::connect(const Vec3f& point, Vec2f lens) const {
@@ -205,12 +216,16 @@ Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
     return ray;
 }
 
-CameraConnection OrthographicCamera::connect(const Vec3f& point, Vec2f) const {
+std::optional<Vec2f> OrthographicCamera::project(const Vec3f& point) const {
     const Vec3f to_point = point - pose.position;
-    const float depth = dot(to_point, pose.forward);
+    return to_film(*this, Vec2f(dot(to_point, pose.right), dot(to_point, pose.up)));
+}
+
+CameraConnection OrthographicCamera::connect(const Vec3f& point, Vec2f) const {
+    const float depth = depth_of(*this, point);
     if (!(depth > 0.0f)) return {};
     return {.lens = point - pose.forward * depth,
-            .film = to_film(*this, {dot(to_point, pose.right), dot(to_point, pose.up)}),
+            .film = *project(point),
             .importance_area = 1.0f / (4.0f * half_width * half_height)};
 }
 
@@ -225,14 +240,20 @@ Ray EquirectangularCamera::generate_ray(Vec2f film, Vec2f) const {
     return ray;
 }
 
+std::optional<Vec2f> EquirectangularCamera::project(const Vec3f& point) const {
+    const Vec3f v = to_axes(pose, point - pose.position);
+    if (!(length_squared(v) > 0.0f)) return {};
+    return Vec2f(0.5f + 0.5f * kInvPi * std::atan2(v.x, v.z), 0.5f - kInvPi * std::atan2(v.y, std::hypot(v.x, v.z)));
+}
+
 CameraConnection EquirectangularCamera::connect(const Vec3f& point, Vec2f) const {
+    const std::optional<Vec2f> film = project(point);
+    if (!film) return {};
     const Vec3f v = to_axes(pose, point - pose.position);
     const float squared = length_squared(v);
-    if (!(squared > 0.0f)) return {};
-    const float level = std::hypot(v.x, v.z);
     return {.lens = pose.position,
-            .film = {0.5f + 0.5f * kInvPi * std::atan2(v.x, v.z), 0.5f - kInvPi * std::atan2(v.y, level)},
-            .importance_area = equirectangular_density(level / std::sqrt(squared)) / squared};
+            .film = *film,
+            .importance_area = equirectangular_density(std::hypot(v.x, v.z) / std::sqrt(squared)) / squared};
 }
 
 Ray FisheyeCamera::generate_ray(Vec2f film, Vec2f) const {
@@ -251,16 +272,20 @@ Ray FisheyeCamera::generate_ray(Vec2f film, Vec2f) const {
     return ray;
 }
 
+std::optional<Vec2f> FisheyeCamera::project(const Vec3f& point) const {
+    const Vec3f v = to_axes(pose, point - pose.position);
+    if (!(length_squared(v) > 0.0f)) return {};
+    const float across = std::hypot(v.x, v.y);
+    const float scale = across > 0.0f ? radius_at(*this, std::atan2(across, v.z)) / across : 0.0f;
+    return to_film(*this, Vec2f(v.x * scale, v.y * scale));
+}
+
 CameraConnection FisheyeCamera::connect(const Vec3f& point, Vec2f) const {
     const Vec3f v = to_axes(pose, point - pose.position);
-    const float squared = length_squared(v);
-    const float across = std::hypot(v.x, v.y);
-    const float angle = std::atan2(across, v.z);
-    if (!(squared > 0.0f && angle <= half_angle)) return {};
-    const float scale = across > 0.0f ? radius_at(*this, angle) / across : 0.0f;
-    return {.lens = pose.position,
-            .film = to_film(*this, {v.x * scale, v.y * scale}),
-            .importance_area = fisheye_density(*this, angle) / squared};
+    const float angle = std::atan2(std::hypot(v.x, v.y), v.z);
+    const std::optional<Vec2f> film = project(point);
+    if (!film || !(angle <= half_angle)) return {};
+    return {.lens = pose.position, .film = *film, .importance_area = fisheye_density(*this, angle) / length_squared(v)};
 }
 
 // A pixel's solid angle is its area on the image plane times cos³; the plane's area is the reciprocal of that density.
@@ -308,12 +333,6 @@ const ClipRange& clip_of(const Camera& camera) {
     return std::visit([](const auto& c) -> const ClipRange& { return body_of(c).clip; }, camera);
 }
 
-Camera without_far_clip(const Camera& camera) {
-    Camera result = camera;
-    std::visit([](auto& c) { body_of(c).clip.end = ClipRange{}.end; }, result);
-    return result;
-}
-
 float camera_depth(const Camera& camera, const Vec3f& point) {
     return std::visit([&](const auto& c) { return depth_of(c, point); }, camera);
 }
@@ -338,6 +357,33 @@ void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<
         for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = clipped_ray(c, film[i], lens[i]);
     };
     std::visit(generate, camera);
+}
+
+Bounds bounds_of_origins(const Camera& camera) {
+    const auto bound = [](const auto& c) {
+        const auto& body = body_of(c);
+        Bounds bounds;
+        if (body.kPanoramic) {
+            bounds.extend(body.pose.position - Vec3f(body.clip.start));
+            bounds.extend(body.pose.position + Vec3f(body.clip.start));
+        } else {
+            for (const float x : {-0.5f, 1.5f})
+                for (const float y : {-0.5f, 1.5f}) bounds.extend(clipped_ray(body, {x, y}, {0.5f, 0.5f}).origin);
+        }
+        if constexpr (requires { c.lens_radius; }) {
+            // What is clipped begins between the lens and the film point's place in focus, or beyond that.
+            const float scale = std::max(1.0f, std::abs(1.0f - body.clip.start / c.focus_distance));
+            const Vec3f reach(c.lens_radius * scale * std::max(1.0f, 1.0f / c.aperture.ratio));
+            bounds.extend(bounds.min - reach);
+            bounds.extend(bounds.max + reach);
+        }
+        return bounds;
+    };
+    return std::visit(bound, camera);
+}
+
+std::optional<Vec2f> project(const Camera& camera, const Vec3f& point) {
+    return std::visit([&](const auto& c) { return c.project(point); }, camera);
 }
 
 CameraConnection connect(const Camera& camera, const Vec3f& point, Vec2f lens) {

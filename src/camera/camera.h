@@ -1,13 +1,14 @@
 // Cameras: from a point on the film and one on the lens to a ray.
 //
-// To add another: a struct with `pose`, `clip`, `kPanoramic`, `generate_ray`, `connect`, `pixel_cone` and `has_lens`,
-// its place in the variant, its projection in camera.cpp, one case in world/compile_camera.cpp, and its row in
-// tests/camera. What lies nearer or farther than a camera shows is cut off for all of them alike, by the functions on
-// `Camera`.
+// To add another: a struct with `pose`, `clip`, `kPanoramic`, `generate_ray`, `project`, `connect`, `pixel_cone` and
+// `has_lens`, its place in the variant, its projection in camera.cpp, one case in world/compile_camera.cpp, and its row
+// in tests/camera. What lies nearer or farther than a camera shows is cut off for all of them alike, by the functions
+// on `Camera`.
 //
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once
 
+#include "core/bounds.h"
 #include "core/ray.h"
 #include "core/ray_cone.h"
 #include "core/vec.h"
@@ -60,6 +61,7 @@ struct PinholeCamera {
     ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] std::optional<Vec2f> project(const Vec3f& point) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
@@ -84,6 +86,7 @@ struct ThinLensCamera {
     Aperture aperture{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] std::optional<Vec2f> project(const Vec3f& point) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     /// Returns the cone of the pinhole: what the lens blurs, its samples blur.
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
@@ -101,6 +104,7 @@ struct OrthographicCamera {
     ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] std::optional<Vec2f> project(const Vec3f& point) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
@@ -114,6 +118,7 @@ struct EquirectangularCamera {
     ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] std::optional<Vec2f> project(const Vec3f& point) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
@@ -140,6 +145,7 @@ struct FisheyeCamera {
 
     /// Returns a ray with nowhere to go, of t_max 0, for film points beyond the circle.
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] std::optional<Vec2f> project(const Vec3f& point) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
     [[nodiscard]] static constexpr bool has_lens() { return false; }
@@ -162,8 +168,6 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera, E
 [[nodiscard]] bool has_blind_film(const Camera& camera);
 /// Returns the depths that the camera shows.
 [[nodiscard]] const ClipRange& clip_of(const Camera& camera);
-/// Returns `camera` with surfaces at all depths beyond the near ones.
-[[nodiscard]] Camera without_far_clip(const Camera& camera);
 /// Returns how far `point` lies along the viewing direction, metres; from a panoramic camera, how far away it is.
 [[nodiscard]] float camera_depth(const Camera& camera, const Vec3f& point);
 
@@ -171,6 +175,12 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera, E
 /// begins where the camera begins to show surfaces, and does not end where it ceases to. Its t_max is 0 where the film
 /// sees nothing.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
+/// Returns a box around all places where rays of the camera begin, on a film that reaches half its extent beyond its
+/// edges, as filters of small images do.
+[[nodiscard]] Bounds bounds_of_origins(const Camera& camera);
+/// Returns where on the film, or beside it, `point` lies as seen through the middle of the lens, at whatever depth;
+/// none behind a perspective camera and where a panoramic one stands.
+[[nodiscard]] std::optional<Vec2f> project(const Camera& camera, const Vec3f& point);
 /// Generates a ray for each of many film and lens points, as `generate_ray` does; all spans have one length.
 void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<Ray> rays);
 

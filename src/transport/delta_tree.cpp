@@ -51,8 +51,8 @@ std::optional<DeltaBranch> survivor(DeltaBranch branch) {
 Vertex next_vertex(const World& world, DeltaBranch& branch) {
     EyePath& path = branch.path;
     const Hit hit = nearest_hit(world, path);
+    if (hit.has_end()) path.throughput *= transmittance(world, path.interior, hit.t);
     if (!hit.valid()) return environment_vertex(path.ray.direction);
-    path.throughput *= transmittance(world, path.interior, hit.t);
     return surface_vertex(world, {path.ray, path.interior, hit, path.cone}, path.wavelength_nm,
                           branch.numbers.pair(kBranchWavelength).x);
 }

@@ -106,7 +106,7 @@ bool survives_roulette(const SubpathSample& sample, Subpath& subpath, int bounce
 Subpath begin_subpath_at_eye(const SubpathSample& sample) {
     Subpath subpath;
     subpath.ray = sample.eye.ray;
-    subpath.interior = sample.world().media().camera_interior();
+    subpath.interior = sample.world().media().interior_at_camera(subpath.ray);
     subpath.from = sample.eye.ray.origin;
     return subpath;
 }
@@ -146,19 +146,19 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
         } else {
             hit = nearest_hit(world, subpath.ray, is_seen ? RayEnds::AtCamera : RayEnds::InScene);
         }
-        if (is_seen && world.traits().clips_far && world.camera().is_too_far(subpath.ray, hit)) hit = {};
-        if (!hit.valid()) {
-            if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
-            break;
-        }
+        if (is_seen && world.traits().clips_far) hit = world.camera().cut_far(subpath.ray, hit);
         const ArrivingRay arriving{subpath.ray, subpath.interior, hit};
         const Vec2f u_medium = sample.pair(subpath.end, bounce, SubpathDimension::Medium);
-        if (const auto vertex = medium_vertex(world, arriving, subpath.throughput, u_medium)) {
+        const auto vertex = hit.has_end() ? medium_vertex(world, arriving, subpath.throughput, u_medium) : std::nullopt;
+        if (vertex) {
             if (is_among_others) subpath.throughput *= chance_beyond(world, subpath.ray, vertex->position);
             const SubpathDensities densities = densities_at(sample, subpath, vertex->position, 1.0f);
             vertices.push_back(make_vertex(subpath, *vertex, densities, subpath.edges));
             const Vec2f u = sample.pair(subpath.end, bounce, SubpathDimension::Scattering);
             depart_from(sample, subpath, *vertex, densities, vertex->sample(0.0f, u, subpath.mode()));
+        } else if (!hit.valid()) {
+            if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
+            break;
         } else if (is_among_others && !is_lit(world, hit, subpath.ray.direction)) {
             break;
         } else {

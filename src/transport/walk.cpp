@@ -17,8 +17,10 @@ VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int rays)
       alpha_key(numbers.bits(bounce_dimension(rays, kAlpha))) {}
 
 EyePath begin_at_eye(const World& world, const EyeSample& sample) {
-    return {
-        .ray = sample.ray, .cone = sample.cone, .interior = world.media().camera_interior(), .tracer = sample.tracer};
+    return {.ray = sample.ray,
+            .cone = sample.cone,
+            .interior = world.media().interior_at_camera(sample.ray),
+            .tracer = sample.tracer};
 }
 
 Hit nearest_hit(const World& world, const Ray& ray, RayEnds ends) {
@@ -32,7 +34,7 @@ Hit nearest_hit(const World& world, const EyePath& path) {
         path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
     const bool passes = path.is_seen() && world.materials().is_hidden_from_camera(hit);
     const Hit shown = passes ? nearest_hit(world, path.ray, RayEnds::AtCamera) : hit;
-    return world.traits().clips_far && path.is_seen() && world.camera().is_too_far(path.ray, shown) ? Hit{} : shown;
+    return world.traits().clips_far && path.is_seen() ? world.camera().cut_far(path.ray, shown) : shown;
 }
 
 Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer, RayEnds ends) {
@@ -55,9 +57,10 @@ void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {
 Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
     const Hit hit = nearest_hit(world, path);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
-    if (!hit.valid()) return environment_vertex(path.ray.direction);
+    if (!hit.has_end()) return environment_vertex(path.ray.direction);
     const ArrivingRay arriving{path.ray, path.interior, hit, path.cone};
     if (const auto vertex = medium_vertex(world, arriving, path.throughput, u.medium)) return *vertex;
+    if (!hit.valid()) return environment_vertex(path.ray.direction);
     return surface_vertex(world, arriving, path.wavelength_nm, u.wavelength);
 }
 

@@ -111,8 +111,9 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
     filters_textures_ = filters_textures;
     share_ = std::move(share);
     const bool is_spelled = job.aovs != nullptr && job.aovs->speller != nullptr;
-    is_active_ = reaches_neighbours(*job.filter) && world.media().camera_interior().is_empty() &&
-                 lengths.min_depth <= 1 && !is_spelled && may_see_lamps(world, job);
+    const std::optional<Interior>& around = world.media().camera_interior();
+    is_active_ = reaches_neighbours(*job.filter) && around && around->is_empty() && lengths.min_depth <= 1 &&
+                 !is_spelled && may_see_lamps(world, job);
     met_.clear();
     found_.clear();
     images_.start(world, job, lengths);

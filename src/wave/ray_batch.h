@@ -22,13 +22,14 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, const
 void intersect_lit(const World& world, const TileJob& job, std::span<const Ray> rays, std::span<Hit> hits,
                    std::span<float> counts, RenderCounters& counters);
 
-/// Removes the hits of rays from the camera that it does not show: those that lie too far, and all of rays that come
-/// from where the film sees nothing.
+/// Removes the hits of rays from the camera that it does not show: those that lie too far, as `SceneCamera::cut_far`
+/// does, and all of rays that come from where the film sees nothing.
 inline void hide_unseen_hits(const World& world, std::span<const Ray> rays, std::span<Hit> hits) {
     if (!world.traits().clips_far && !world.traits().has_blind_film) return;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        if (!(rays[i].t_max > 0.0f) || (world.traits().clips_far && world.camera().is_too_far(rays[i], hits[i])))
-            hits[i] = {};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!(rays[i].t_max > 0.0f)) hits[i] = {};
+        if (world.traits().clips_far) hits[i] = world.camera().cut_far(rays[i], hits[i]);
+    }
 }
 
 /// Answers for each ray as `SceneGeometry::occluded` does: kOccluded, kPassesClear or kFree; `occluded` is as long as

@@ -190,8 +190,10 @@ void check_surfaces(const SceneDesc& scene, const WorldData& data, std::span<con
 void note_closed_sheets(const SceneDesc& scene, const WorldData& data, ProblemList& problems) {
     const auto is_sheet = [&](const Geometry& geometry) {
         const MaterialDesc& desc = scene.materials[geometry.material];
-        return desc.transmission > 0.0f && !desc.volume.closed && !desc.unlit && desc.alpha_mode != AlphaMode::Mask &&
-               std::holds_alternative<std::monostate>(desc.override_model);
+        // Filled, what neither bends nor absorbs light is what it was, such as the surface of a soft lamp.
+        const bool would_change = desc.ior != 1.0f || !std::isinf(desc.volume.attenuation_distance);
+        return would_change && desc.transmission > 0.0f && !desc.volume.closed && !desc.unlit &&
+               desc.alpha_mode != AlphaMode::Mask && std::holds_alternative<std::monostate>(desc.override_model);
     };
     // What encloses less than this part of the cube of its size is flat.
     constexpr double kLeastVolume = 1e-6;

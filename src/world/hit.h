@@ -10,7 +10,8 @@ namespace etendue {
 
 /// Holds the nearest surface along a ray, in 28 bytes.
 struct Hit {
-    float t = 0.0f;              ///< metres along the ray
+    /// Is in metres along the ray; of one that met nothing, how far the camera shows what lies along it, or 0.
+    float t = 0.0f;
     float u = 0.0f, v = 0.0f;    ///< barycentric coordinates of the second and third vertex, or the place on a shape
     std::uint32_t triangle = 0;  ///< or the face of a shape (shape/shape.h)
     std::uint32_t geometry : 31 = 0;
@@ -19,6 +20,8 @@ struct Hit {
     float time = 0.0f;                 ///< the time of the ray: what moves is hit where it was then
 
     [[nodiscard]] bool valid() const { return instance != kNone; }
+    /// Returns whether the ray goes on to a surface or to the camera's far plane, and not out of the scene.
+    [[nodiscard]] bool has_end() const { return valid() || t > 0.0f; }
 };
 
 /// Says what is known about the rays of a batch; decides how they are traced, not what they hit.

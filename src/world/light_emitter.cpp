@@ -83,6 +83,7 @@ Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool
     const Light& light = data_.lights[choice.index];
     sample = etendue::sample_emission(light, u, data_.bounding_sphere());
     if (aims && !aim_.empty()) aim_emission(aim_, light, data_.bounding_sphere(), u, sample);
+    emission.ray.time = time;
     if (is_black(sample.radiance)) return emission;
     if (has_uneven_emission(data_, choice.index))
         sample.radiance =
@@ -90,7 +91,6 @@ Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool
     emission.weight = sample.weight() / choice.probability;
     emission.ray.origin = origin(emission, sample.direction);
     emission.ray.direction = sample.direction;
-    emission.ray.time = time;
     return emission;
 }
 
@@ -121,7 +121,7 @@ Vec3f LightEmitter::origin(const Emission& emission, const Vec3f& direction) con
 
 Interior LightEmitter::interior(const Emission& emission, const Vec3f& direction) const {
     const std::optional<Interior>& everywhere = media_.light_interior(emission.light);
-    return everywhere ? *everywhere : media_.interior_at(origin(emission, direction));
+    return everywhere ? *everywhere : media_.interior_at(origin(emission, direction), emission.ray.time);
 }
 
 float LightEmitter::pdf(const EmittedRay& ray, bool aims) const {

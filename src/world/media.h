@@ -40,13 +40,19 @@ class Media {
     /// Returns the share of light, [0, 1], that media leave between the ends of `ray`, which starts within `interior`
     /// and passes clear bodies; black where one of these bends it. Does not ask what else is in the way.
     [[nodiscard]] Rgb transmittance(const Interior& interior, const Ray& ray, RayEnds ends) const;
-    /// Returns the bodies that `point` is in in the middle of the shutter, found by a ray through all that lies above
-    /// it.
-    [[nodiscard]] Interior interior_at(const Vec3f& point) const;
-    /// Returns the bodies that the camera is in.
-    [[nodiscard]] const Interior& camera_interior() const { return camera_interior_; }
-    /// Returns the bodies in which all rays start that leave the light of this index, or nothing if these differ or
-    /// other surfaces lie in the light's plane; there have to be bodies.
+    /// Returns the bodies that `point` is in at `time`, [0, 1], found by a ray through all that lies above it.
+    [[nodiscard]] Interior interior_at(const Vec3f& point, float time) const;
+    /// Returns the bodies in which `ray` of the camera starts.
+    [[nodiscard]] Interior interior_at_camera(const Ray& ray) const {
+        return camera_interior_ ? *camera_interior_ : interior_at(ray.origin, ray.time);
+    }
+    /// Returns the bodies in which all rays of the camera start, or nothing if a boundary may pass between these places
+    /// while the shutter is open.
+    [[nodiscard]] const std::optional<Interior>& camera_interior() const { return camera_interior_; }
+    /// Returns whether some rays of `camera` start in a medium.
+    [[nodiscard]] bool has_camera_in_medium(const SceneCamera& camera) const;
+    /// Returns the bodies in which all rays start that leave the light of this index, or nothing if these differ, a
+    /// boundary moves there or other surfaces lie in the light's plane; there have to be bodies.
     [[nodiscard]] const std::optional<Interior>& light_interior(std::uint32_t light) const {
         return light_interiors_[light];
     }
@@ -59,7 +65,7 @@ class Media {
 
     const WorldData& data_;
     const SceneGeometry& geometry_;
-    Interior camera_interior_;
+    std::optional<Interior> camera_interior_ = Interior();
     /// Has an element for each light; empty without bodies.
     std::vector<std::optional<Interior>> light_interiors_;
 };

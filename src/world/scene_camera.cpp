@@ -1,5 +1,6 @@
 #include "world/scene_camera.h"
 
+#include "core/position_error.h"
 #include "world/motion.h"
 
 #include <algorithm>
@@ -50,8 +51,33 @@ float SceneCamera::depth(const Vec3f& point, float time) const {
     return camera_depth(data_.camera_motion.empty() ? data_.camera : at(time), point);
 }
 
-bool SceneCamera::is_too_far(const Ray& ray, const Hit& hit) const {
-    return hit.valid() && depth(ray.origin + ray.direction * hit.t, ray.time) > clip_of(data_.camera).end;
+std::optional<Vec2f> SceneCamera::project(const Vec3f& point, float time) const {
+    return etendue::project(data_.camera_motion.empty() ? data_.camera : at(time), point);
+}
+
+Hit SceneCamera::cut_far(const Ray& ray, const Hit& hit) const {
+    if (!hit.valid()) return hit;
+    const float end = clip_of(data_.camera).end;
+    const float at_hit = depth(ray.origin + ray.direction * hit.t, ray.time);
+    if (!(at_hit > end)) return hit;
+    // Depths grow evenly along rays of the camera.
+    const float at_origin = depth(ray.origin, ray.time);
+    return {.t = hit.t * (end - at_origin) / (at_hit - at_origin)};
+}
+
+Bounds SceneCamera::bounds_of_origins() const {
+    const Bounds still = etendue::bounds_of_origins(data_.camera);
+    if (data_.camera_motion.empty()) return still;
+    // However the camera turns, rays begin no farther from where it stands.
+    const Vec3f& position = pose_of(data_.camera).position;
+    const Vec3f reach(
+        length(max_components(abs_components(still.min - position), abs_components(still.max - position))));
+    Bounds moving;
+    for (const Mat4f& step : data_.camera_motion) {
+        moving.extend(transform_point(step, Vec3f(0.0f)) - reach);
+        moving.extend(transform_point(step, Vec3f(0.0f)) + reach);
+    }
+    return moving;
 }
 
 bool SceneCamera::may_show_lamps(Vec2f least, Vec2f most) const {

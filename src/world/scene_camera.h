@@ -8,6 +8,7 @@
 #include "world/scene_traits.h"
 #include "world/world_data.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,14 @@ class SceneCamera {
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens, float time) const;
     /// Returns the distance of `point` from the camera as it is at `time`, metres along its viewing direction.
     [[nodiscard]] float depth(const Vec3f& point, float time) const;
-    /// Returns whether `hit`, which the eye sees along `ray`, lies farther than the camera shows.
-    [[nodiscard]] bool is_too_far(const Ray& ray, const Hit& hit) const;
+    /// Returns where `point` is seen at `time` through the middle of the lens, in units of the film and at whatever
+    /// depth; none behind a perspective camera and where a panoramic one stands.
+    [[nodiscard]] std::optional<Vec2f> project(const Vec3f& point, float time) const;
+    /// Returns `hit`, which the eye meets along `ray`; in place of one that lies farther than the camera shows, none,
+    /// whose `t` is how far the camera shows.
+    [[nodiscard]] Hit cut_far(const Ray& ray, const Hit& hit) const;
+    /// Returns a box around all places where rays of the camera begin while the shutter is open.
+    [[nodiscard]] Bounds bounds_of_origins() const;
     /// Returns false if no camera ray through the part of the film from `least` to `most` can meet a surface that emits
     /// light.
     [[nodiscard]] bool may_show_lamps(Vec2f least, Vec2f most) const;

@@ -19,11 +19,9 @@ WorldParts::WorldParts(WorldData from)
       lights(data, materials),
       emitters(data, materials, media),
       environment(data) {
-    // Without its walls, a body around the camera would have no end.
-    if (!media.camera_interior().is_empty()) data.camera = without_far_clip(data.camera);
     traits = find_traits(data, media, lights, emitters);
     // A catcher shows what is infinitely far behind it, through which nothing of a medium around the camera would pass.
-    if (traits.has_shadow_catchers && media.within(media.camera_interior()) != nullptr)
+    if (traits.has_shadow_catchers && media.has_camera_in_medium(camera))
         throw SceneError({}, "the camera is in a medium, through which it cannot see materials that catch shadows");
 }
 

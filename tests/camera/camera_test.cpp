@@ -191,8 +191,57 @@ TEST(Camera, ClippingIsAlongTheViewingDirection) {
             EXPECT_TRUE(is_seen(8.9f));
             EXPECT_EQ(is_seen(9.1f), std::isinf(clip.end));
         }
-        EXPECT_TRUE(std::isinf(clip_of(without_far_clip(camera)).end));
-        EXPECT_EQ(clip_of(without_far_clip(camera)).start, clip.start);
+    }
+}
+
+TEST(Camera, ProjectsWhatItIsConnectedToAndWhatItDoesNotShow) {
+    Random random(15);
+    constexpr Vec2f kMiddle{0.5f, 0.5f};
+    for (const Camera& camera : all_cameras())
+        for (int i = 0; i < 50; ++i) {
+            const Vec2f film = random.next_2d();
+            const Ray ray = generate_ray(camera, film, kMiddle);
+            if (ray.t_max == 0.0f) continue;
+            // Before the near plane, between the two and beyond the far one.
+            for (const float t : {-0.2f, 3.0f, 20.0f}) {
+                const Vec3f point = ray.origin + ray.direction * t;
+                if (t < 0.0f && clip_of(camera).start == 0.0f) continue;
+                const std::optional<Vec2f> seen = project(camera, point);
+                ASSERT_TRUE(seen);
+                EXPECT_NEAR(seen->x, film.x, 1e-4f);
+                EXPECT_NEAR(seen->y, film.y, 1e-4f);
+                const CameraConnection view = connect(camera, point, kMiddle);
+                EXPECT_TRUE(!(view.importance_area > 0.0f) || view.film == *seen);
+            }
+        }
+}
+
+TEST(Camera, ProjectsBesideTheCircleOfAFisheyeAndNotBehindAPinhole) {
+    const FisheyeCamera fisheye{.pose = {}, .half_width = 1.0f, .half_height = 1.0f, .half_angle = 0.5f};
+    const Vec3f aside(std::sin(0.75f), 0.0f, -std::cos(0.75f));
+    EXPECT_EQ(connect(fisheye, aside, {0.5f, 0.5f}).importance_area, 0.0f);
+    ASSERT_TRUE(project(fisheye, aside));
+    EXPECT_NEAR(project(fisheye, aside)->x, 1.25f, 1e-5f) << "one and a half radii beside the middle";
+    EXPECT_FALSE(project(PinholeCamera{}, {0.1f, 0.1f, 1.0f}));
+    EXPECT_TRUE(project(OrthographicCamera{}, {0.1f, 0.1f, 1.0f})) << "where it stands does not matter";
+}
+
+TEST(Camera, RaysBeginInABox) {
+    Random random(16);
+    for (const Camera& camera : all_cameras()) {
+        const Bounds box = bounds_of_origins(camera);
+        Bounds found;
+        for (int i = 0; i < 500; ++i) {
+            const Ray ray = generate_ray(camera, random.next_2d() * 2.0f - Vec2f(0.5f, 0.5f), random.next_2d());
+            if (ray.t_max == 0.0f) continue;
+            found.extend(ray.origin);
+        }
+        constexpr float kRounding = 1e-5f;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_GE(found.min[axis], box.min[axis] - kRounding);
+            EXPECT_LE(found.max[axis], box.max[axis] + kRounding);
+        }
+        EXPECT_LE(length(box.size()), 2.0f * length(found.size()) + kRounding) << "it is not far too large";
     }
 }
 

@@ -70,6 +70,16 @@ std::vector<ClosedFormCase> absorption_cases() {
                                    overlapping, priority > 0 ? 2.0 + 2.0 : 1.0 + 4.0));
     }
 
+    // The far plane lies in the slab; behind it is a wall, which is not seen.
+    for (const float front : {0.5f, -0.5f}) {
+        SceneDesc cut = empty_in_environment();
+        add(cut, slab(front, -3.0f), tinted_air());
+        add(cut, parallelogram({0.0f, 0.0f, -2.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), diffuse(0.5f));
+        cut.cameras.back().clip.end = 1.5f;
+        cases.push_back(exact_case(front > 0.0f ? "camera_in_a_slab_sees_to_the_far_plane" : "far_plane_in_a_slab", cut,
+                                   front > 0.0f ? 1.5 : 1.0));
+    }
+
     // An opaque wall in the medium, lit from within it.
     SceneDesc wall = empty_in_environment();
     wall.environment.enabled = false;
@@ -124,6 +134,34 @@ ClosedFormCase hidden_boundary_case(const std::string& name, float ior) {
     add(scene, slab(0.5f, -2.0f), hidden);
     add(scene, parallelogram({0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), diffuse(kAlbedo));
     return {name, scene, kRho, 1e-5, {.max_depth = 2}, kFindAllBounces, 16};
+}
+
+/// Camera rays begin in and beside a slab that ends two metres before the camera, before a wall that shines.
+std::vector<ClosedFormCase> divided_camera_cases() {
+    std::vector<ClosedFormCase> cases;
+    const auto divided = [&](const std::string& name, double share, std::vector<std::string> integrators,
+                             const auto& change) {
+        SceneDesc scene = empty_in_environment();
+        scene.environment.enabled = false;
+        add(scene, box({-0.5f, -9.0f, -2.0f}, {9.0f, 9.0f, 2.0f}), tinted_air());
+        add(scene, parallelogram({0.0f, 0.0f, -3.0f}, {5.0f, 0.0f, 0.0f}, {0.0f, 5.0f, 0.0f}), emitter(1.0f));
+        change(scene);
+        cases.push_back(
+            {name, scene, 0.0625 * share + (1.0 - share), 1e-3, {.max_depth = 4}, std::move(integrators), 16});
+    };
+    const auto at = [](float x) { return Mat4f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1); };
+    divided("camera_plane_cuts_a_slab", 0.75, light_too(kFindAllMirrors), [](SceneDesc& scene) {
+        scene.cameras.clear();
+        look(scene, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, 1.0f);
+    });
+    divided("camera_passes_into_a_slab", 0.75, kFindAllMirrors, [&](SceneDesc& scene) {
+        CameraDesc& camera = scene.cameras.back();
+        camera.motion = {camera.to_world * at(-1.0f), camera.to_world * at(1.0f)};
+    });
+    divided("slab_passes_over_the_camera", 0.75, kFindAllMirrors, [&](SceneDesc& scene) {
+        scene.instances.front().motion = {at(1.0f), at(-1.0f)};
+    });
+    return cases;
 }
 
 /// Light from outside clear bodies, which light samples pass.
@@ -260,6 +298,7 @@ std::vector<ClosedFormCase> body_cases() {
     cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_boundary", 1.5f));
     cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_clear_boundary", 1.0f));
     for (ClosedFormCase& c : clear_body_cases()) cases.push_back(std::move(c));
+    for (ClosedFormCase& c : divided_camera_cases()) cases.push_back(std::move(c));
     return cases;
 }
 

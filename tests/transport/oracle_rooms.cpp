@@ -64,23 +64,6 @@ MaterialDesc filling_of(RoomAir air) {
     return material;
 }
 
-/// The cube [-1, 1]³ with its front outside.
-PrimitiveDesc box() {
-    PrimitiveDesc all;
-    for (const float side : {-1.0f, 1.0f})
-        for (int axis = 0; axis < 3; ++axis) {
-            Vec3f out(0.0f), x(0.0f), y(0.0f);
-            out[axis] = side;
-            x[(axis + 1) % 3] = side;
-            y[(axis + 2) % 3] = 1.0f;
-            const PrimitiveDesc face = quad(out, x, y);
-            const auto first = static_cast<std::uint32_t>(all.positions.size());
-            all.positions.insert(all.positions.end(), face.positions.begin(), face.positions.end());
-            for (const auto& [a, b, c] : face.triangles) all.triangles.push_back({first + a, first + b, first + c});
-        }
-    return all;
-}
-
 }  // namespace
 
 World crowded_room(RoomAir air) {
@@ -114,10 +97,10 @@ World crowded_room(RoomAir air) {
     add_object(scene, quad({-0.9f, -0.3f, -3.4f}, {0.4f, 0, 0.1f}, {0, 0.4f, 0}), add_material(scene, cloth));
     // A block of glass that stands on the floor, and another, of a lower precedence, that reaches into it.
     const Mat4f standing = scaling({0.3f, 0.15f, 0.2f}) * translation({-0.3f, -0.55f, -2.6f});
-    add_object(scene, box(), add_material(scene, glass(0.0f, 1.0f, {0.9f, 0.6f, 0.3f})), standing);
+    add_object(scene, cube(), add_material(scene, glass(0.0f, 1.0f, {0.9f, 0.6f, 0.3f})), standing);
     MaterialDesc resin = glass(0.0f, 0.0f, {0.3f, 0.8f, 0.5f});
     std::get<DielectricDesc>(resin.override_model).volume.priority = -1;
-    add_object(scene, box(), add_material(scene, resin), standing * translation({0.15f, 0.1f, 0.1f}));
+    add_object(scene, cube(), add_material(scene, resin), standing * translation({0.15f, 0.1f, 0.1f}));
     if (air == RoomAir::Resin) add_object(scene, sphere({0.0f, 1.3f, -3.0f}, 1.2f, 12), add_material(scene, resin));
     // A second lamp, so that lights are chosen by what they light.
     add_object(scene, quad({-1.2f, 0.2f, -2.8f}, {0, 0, -0.1f}, {0, 0.1f, 0}),
@@ -130,6 +113,22 @@ World crowded_room(RoomAir air) {
     scene.instances.back().motion = {translation({-0.5f, -0.4f, -2.8f}), translation({-0.2f, -0.3f, -2.7f})};
     add_object(scene, quad(Vec3f(0.0f), {0.1f, 0, 0}, {0, 0, 0.1f}), add_material(scene, emissive(Rgb(4.0f))));
     scene.instances.back().motion = {translation({0.9f, 0.3f, -2.8f}), translation({1.2f, 0.5f, -2.9f})};
+    return compile(std::move(scene));
+}
+
+World divided_room() {
+    SceneDesc scene = empty_scene();
+    add_object(scene, cube(), add_material(scene, filling_of(RoomAir::Fog)));
+    scene.instances.back().motion = {translation({-0.7f, -0.4f, -1.5f}), translation({0.6f, -0.2f, -1.3f})};
+    add_object(scene, quad({0.3f, 0, -2.5f}, {1.5f, 0, 0.5f}, {0, 1.5f, 0}), add_material(scene, diffuse(Rgb(0.6f))));
+    add_object(scene, quad({0, 1.4f, -1.5f}, {0.4f, 0, 0}, {0, 0, 0.4f}), add_material(scene, emissive(Rgb(5.0f))));
+    add_environment(scene);
+    scene.lights.push_back(point_light());
+    CameraDesc& camera = scene.cameras.front();
+    camera.lens_radius = 0.05f;
+    camera.clip.start = 1.0f;
+    camera.clip.end = 2.4f;
+    camera.motion = {translation({0, 0, -0.3f}), translation({0.1f, 0, 0.3f})};
     return compile(std::move(scene));
 }
 

@@ -16,6 +16,9 @@ enum class RoomAir {
 /// unlit, and things that move.
 [[nodiscard]] World crowded_room(RoomAir air);
 
+/// Fog, lamps and a wall before a moving camera whose near and far planes lie in the fog, which drifts.
+[[nodiscard]] World divided_room();
+
 /// Many small lamps, a sky with a sun and a point, so that lights are chosen by what they light.
 [[nodiscard]] World many_lights_room();
 

@@ -132,6 +132,12 @@ TEST(Oracle, FindsTheSamplesBehindHiddenBoundaries) {
     EXPECT_GT(expect_all_samples_of_oracle(crowded_room(RoomAir::Resin), {}), 1000u);
 }
 
+TEST(Oracle, FindsTheSamplesOfACameraThatABodyDivides) {
+    const World world = divided_room();
+    EXPECT_FALSE(world.media().camera_interior());
+    expect_all_samples_of_oracle(world, {});
+}
+
 TEST(Oracle, FindsTheSamplesUnderManyLights) {
     expect_all_samples_of_oracle(many_lights_room(), {});
 }

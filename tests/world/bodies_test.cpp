@@ -2,10 +2,12 @@
 #include "world/test_scene.h"
 #include "world/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -39,13 +41,143 @@ TEST(Bodies, APointKnowsWhatItIsIn) {
     add_ball(scene, {0, 0, 0.2f}, 1.0f, body(1.5f));
     const World world = compile(std::move(scene));
     EXPECT_TRUE(world.traits().has_bodies);
-    EXPECT_TRUE(world.media().interior_at({3, 0, 0}).is_empty());
-    EXPECT_TRUE(world.media().interior_at({0, -3, 0}).is_empty()) << "below all, on the ray's way";
-    const Interior water = world.media().interior_at({1.5f, 0, 0});
-    const Interior glass = world.media().interior_at({0, 0, 0.2f});
+    EXPECT_TRUE(world.media().interior_at({3, 0, 0}, 0.5f).is_empty());
+    EXPECT_TRUE(world.media().interior_at({0, -3, 0}, 0.5f).is_empty()) << "below all, on the ray's way";
+    const Interior water = world.media().interior_at({1.5f, 0, 0}, 0.5f);
+    const Interior glass = world.media().interior_at({0, 0, 0.2f}, 0.5f);
     EXPECT_EQ(crossing_from(world, 1.6f, water).outside_ior, 1.33f);
     EXPECT_NE(water.filling(), glass.filling());
-    EXPECT_EQ(world.media().camera_interior().filling(), glass.filling()) << "the camera stands at the origin";
+    EXPECT_EQ(world.media().camera_interior()->filling(), glass.filling()) << "the camera stands at the origin";
+}
+
+/// Changes a camera at the origin that looks along -Z, so that its rays begin in more places than one.
+using CameraChange = void (*)(CameraDesc& camera);
+
+std::vector<std::pair<std::string, CameraChange>> wide_cameras() {
+    return {
+        {"orthographic",
+         [](CameraDesc& camera) {
+             camera.type = CameraType::Orthographic;
+             camera.ymag = 2.0f;
+         }},
+        {"near plane",
+         [](CameraDesc& camera) {
+             camera.yfov = 2.0f;
+             camera.clip.start = 0.7f;
+         }},
+        {"near sphere",
+         [](CameraDesc& camera) {
+             camera.type = CameraType::Equirectangular;
+             camera.clip.start = 1.2f;
+         }},
+        {"lens", [](CameraDesc& camera) { camera.lens_radius = 2.0f; }},
+        {"lens behind a near plane",
+         [](CameraDesc& camera) {
+             camera.lens_radius = 0.9f;
+             camera.aperture = {.blades = 6, .rotation = 0.3f, .ratio = 0.4f};
+             camera.focus_distance = 0.25f;
+             camera.clip.start = 0.5f;
+         }},
+        {"flight",
+         [](CameraDesc& camera) {
+             camera.motion = {translation({0, 0, 3}), translation({0, 0.5f, 0})};
+         }},
+        {"turn",
+         [](CameraDesc& camera) {
+             camera.clip.start = 0.85f;
+             camera.motion = {Mat4f(), Mat4f(0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1)};
+         }},
+        {"pinhole", [](CameraDesc&) {}},
+    };
+}
+
+/// A cube of glass under a camera that is changed.
+SceneDesc cube_around_camera(CameraChange change, const Mat4f& to_world) {
+    SceneDesc scene = empty_scene();
+    change(scene.cameras.front());
+    add_object(scene, cube(), add_material(scene, body(1.5f)), to_world);
+    return scene;
+}
+
+/// Counts camera rays that begin inside and outside, and compares with where `place` says that the cube's centre is.
+template <typename Place>
+std::pair<int, int> rays_in_and_out(const World& world, const std::string& name, const Place& place) {
+    Random random(3);
+    int in = 0;
+    int out = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Ray ray = world.camera().generate_ray(random.next_2d(), random.next_2d(), random.next_2d().x);
+        const Vec3f p = abs_components(ray.origin - place(ray.time));
+        const float depth = 1.0f - std::max({p.x, p.y, p.z});
+        if (std::abs(depth) < 1e-4f) continue;
+        EXPECT_EQ(world.media().interior_at_camera(ray).is_empty(), depth < 0.0f) << name << ", " << ray.origin;
+        ++(depth < 0.0f ? out : in);
+    }
+    return {in, out};
+}
+
+TEST(Bodies, EachRayOfTheCameraKnowsWhatItStartsIn) {
+    const auto expect_both = [](SceneDesc scene, const std::string& name, const auto& place) {
+        const World world = compile(std::move(scene));
+        const auto [in, out] = rays_in_and_out(world, name, place);
+        EXPECT_GT(std::min(in, out), 20) << name;
+        EXPECT_FALSE(world.media().camera_interior()) << name;
+    };
+    const Vec3f aside(0.3f, 0.2f, 0.1f);
+    for (const auto& [name, change] : wide_cameras())
+        if (name != "pinhole")
+            expect_both(cube_around_camera(change, translation(aside)), name, [&](float) { return aside; });
+    const Vec3f left(-4.0f, 0.1f, 0.2f);
+    const auto way = [&](float time) { return left + Vec3f(8.0f, 0.0f, 0.0f) * time; };
+    SceneDesc passing = cube_around_camera(wide_cameras().back().second, Mat4f());
+    passing.instances.back().motion = {translation(way(0.0f)), translation(way(1.0f))};
+    expect_both(std::move(passing), "passing cube", way);
+    SceneDesc growing = cube_around_camera(wide_cameras().back().second, Mat4f());
+    PrimitiveDesc& primitive = growing.meshes.back().primitives.back();
+    for (const float time : {0.0f, 1.0f}) {
+        VertexStep& step = primitive.motion.emplace_back();
+        for (const Vec3f& p : primitive.positions) step.positions.push_back(p + way(time));
+        step.normals = primitive.normals;
+    }
+    expect_both(std::move(growing), "passing vertices", way);
+}
+
+TEST(Bodies, OneInteriorIsForAllRaysOfTheCameraThatNoBoundaryParts) {
+    Random random(5);
+    for (const auto& [name, change] : wide_cameras()) {
+        const World within = compile(cube_around_camera(change, scaling(Vec3f(30.0f))));
+        ASSERT_TRUE(within.media().camera_interior()) << name;
+        EXPECT_FALSE(within.media().camera_interior()->is_empty()) << name;
+        const World beside = compile(cube_around_camera(change, translation({0.0f, 9.0f, 0.0f})));
+        ASSERT_TRUE(beside.media().camera_interior()) << name;
+        EXPECT_TRUE(beside.media().camera_interior()->is_empty()) << name;
+        SceneDesc moving = cube_around_camera(change, Mat4f());
+        moving.instances.back().motion = {translation({9, 0, 0}), translation({9, 3, 0})};
+        EXPECT_TRUE(compile(std::move(moving)).media().camera_interior()) << name;
+    }
+    // Boxes around the triangles of a turned cube contain its middle.
+    const World turned = compile(cube_around_camera(wide_cameras().back().second, random_transform(random, false)));
+    EXPECT_TRUE(turned.media().camera_interior());
+}
+
+TEST(Bodies, ALampKnowsWhatMovesOverIt) {
+    const auto world_of = [](float height) {
+        SceneDesc scene = empty_scene();
+        LightDesc& light = scene.lights.emplace_back();
+        light.type = LightType::Point;
+        add_object(scene, cube(), add_material(scene, body(1.5f)));
+        scene.instances.back().motion = {translation({-4.0f, height, 0.0f}), translation({4.0f, height, 0.0f})};
+        return compile(std::move(scene));
+    };
+    const World world = world_of(0.0f);
+    EXPECT_FALSE(world.media().light_interior(0));
+    const EmissionNumbers numbers{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.4f}};
+    for (const float time : {0.1f, 0.3f, 0.4f, 0.6f, 0.7f, 0.9f}) {
+        const Emission emission = world.emitters().sample({0.5f, 0.5f}, numbers, time, false);
+        const bool is_inside = std::abs(8.0f * time - 4.0f) < 1.0f;
+        EXPECT_EQ(!world.emitters().interior(emission, emission.ray.direction).is_empty(), is_inside) << time;
+    }
+    EXPECT_TRUE(world_of(3.0f).media().light_interior(0)) << "the cube passes above it";
 }
 
 TEST(Bodies, AnInnerBoundaryIsRelativeToWhatSurroundsIt) {
@@ -124,7 +256,7 @@ TEST(Bodies, EachChannelOfSubsurfaceHasItsOwnMeanFreePath) {
     wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.5f, 0.2f}, .radius = {0.04f, 0.02f, 0.01f}};
     add_ball(scene, {0, 0, 0}, 2.0f, wax);
     const World world = compile(std::move(scene));
-    const HomogeneousMedium* medium = world.media().within(world.media().interior_at(Vec3f(0.0f)));
+    const HomogeneousMedium* medium = world.media().within(world.media().interior_at(Vec3f(0.0f), 0.5f));
     ASSERT_NE(medium, nullptr);
     const Rgb left = medium->transmittance(0.02f);
     EXPECT_NEAR(left.r, std::exp(-0.5f), 1e-5f);
@@ -188,6 +320,13 @@ TEST(Bodies, ClosedSheetsAreNoted) {
               }),
               "")
         << "a flat mesh encloses nothing";
+    EXPECT_EQ(said_of_a_shell([](PrimitiveDesc&, MaterialDesc& lamp) { lamp.ior = 1.0f; }), "")
+        << "filled, it would be as it is";
+    EXPECT_NE(said_of_a_shell([](PrimitiveDesc&, MaterialDesc& air) {
+                  air.ior = 1.0f;
+                  air.volume.attenuation_distance = 1.0f;
+              }),
+              "");
 }
 
 TEST(Bodies, HolesAndTurnedSurfacesAreWarnedOf) {

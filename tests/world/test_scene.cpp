@@ -75,6 +75,22 @@ PrimitiveDesc quad(const Vec3f& center, const Vec3f& x, const Vec3f& y) {
     return primitive;
 }
 
+PrimitiveDesc cube() {
+    PrimitiveDesc all;
+    for (const float side : {-1.0f, 1.0f})
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3f out(0.0f), x(0.0f), y(0.0f);
+            out[axis] = side;
+            x[(axis + 1) % 3] = side;
+            y[(axis + 2) % 3] = 1.0f;
+            const PrimitiveDesc face = quad(out, x, y);
+            const auto first = static_cast<std::uint32_t>(all.positions.size());
+            all.positions.insert(all.positions.end(), face.positions.begin(), face.positions.end());
+            for (const auto& [a, b, c] : face.triangles) all.triangles.push_back({first + a, first + b, first + c});
+        }
+    return all;
+}
+
 PrimitiveDesc sphere(const Vec3f& center, float radius, int rings) {
     PrimitiveDesc primitive;
     const int sectors = 2 * rings;

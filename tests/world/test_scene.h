@@ -33,6 +33,8 @@ void add_object(SceneDesc& scene, PrimitiveDesc primitive, Handle<MaterialDesc> 
 /// The parallelogram center ± x ± y, with its front towards cross(x, y) and texture coordinates as in glTF: u along x,
 /// v against y. Normals are flat.
 [[nodiscard]] PrimitiveDesc quad(const Vec3f& center, const Vec3f& x, const Vec3f& y);
+/// The cube [-1, 1]³ with flat faces and the front outside.
+[[nodiscard]] PrimitiveDesc cube();
 /// A sphere of longitude-latitude patches with exact normals and the front outside.
 [[nodiscard]] PrimitiveDesc sphere(const Vec3f& center, float radius, int rings);
 /// An exact shape around the origin with half its size along each axis.

@@ -10,17 +10,20 @@ namespace etendue {
 void PathPlaces::set_up(const PathContext& context) {
     const World& world = context.world;
     for (LaneList* list : {&block_.escaped, &block_.on_emitter, &block_.on_hidden, &block_.on_surface}) list->clear();
-    LaneList has_hit;
+    LaneList leads_on;
     for (std::size_t k = 0; k < block_.count; ++k) {
-        const bool is_valid = paths_.hits[block_.first + k].valid();
-        has_hit.add_if(is_valid, k);
-        block_.escaped.add_if(!is_valid, k);
+        const bool has_end = paths_.hits[block_.first + k].has_end();
+        leads_on.add_if(has_end, k);
+        block_.escaped.add_if(!has_end, k);
     }
-    for (const std::size_t k : block_.escaped) paths_.end_path(context, block_.first + k, PathEnding::Escaped);
-    for (const std::size_t k : has_hit) {
+    for (const std::size_t k : leads_on) {
         const std::size_t i = block_.first + k;
         if (world.traits().has_bodies && scattering_.scatter_in_medium(context, k)) {
             block_.lanes.goes_on.set(k, 1.0f);
+            continue;
+        }
+        if (!paths_.hits[i].valid()) {
+            block_.escaped.add(k);
             continue;
         }
         const PlainSurface* const plain = block_.paths[k].plain = world.materials().plain_surface(paths_.hits[i]);
@@ -31,6 +34,7 @@ void PathPlaces::set_up(const PathContext& context) {
         else
             paths_.end_path(context, block_.first + k, PathEnding::TooLong);
     }
+    for (const std::size_t k : block_.escaped) paths_.end_path(context, block_.first + k, PathEnding::Escaped);
 }
 
 bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {

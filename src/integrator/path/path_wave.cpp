@@ -60,7 +60,7 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
         Hit& hit = paths_.hits[i];
         if (world.materials().is_hidden_from_camera(hit))
             hit = intersect_one(world, job, RayKind::Primary, rays[i], counters);
-        if (world.traits().clips_far && world.camera().is_too_far(rays[i], hit)) hit = {};
+        if (world.traits().clips_far) hit = world.camera().cut_far(rays[i], hit);
     }
 }
 

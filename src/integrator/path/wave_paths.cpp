@@ -3,10 +3,16 @@
 #include "core/vector_bytes.h"
 #include "transport/scattered_cone.h"
 
+#include <algorithm>
+
 namespace etendue {
 
 void WavePaths::begin(const World& world, const TileJob& job, std::span<const Ray> rays) {
-    if (world.traits().has_bodies) interiors.assign(kCapacity, world.media().camera_interior());
+    if (world.traits().has_bodies) {
+        interiors.resize(kCapacity);
+        std::ranges::transform(rays, interiors.begin(),
+                               [&](const Ray& ray) { return world.media().interior_at_camera(ray); });
+    }
     if (world.traits().chooses_lights_by_receiver) receivers.resize(kCapacity);
     if (world.traits().has_clear_surfaces) passed.assign(kCapacity, 0.0f);
     words.reset(job.aovs);

@@ -84,17 +84,14 @@ class FirstHit {
     }
 
   private:
-    /// Pixels from the corner of the full image, of this point of the surface at another time; none if the camera
-    /// cannot see it then.
+    /// Returns the place of this point of the surface at another time, pixels from the corner of the full image,
+    /// wherever the camera's depths and film end; none behind the camera.
     [[nodiscard]] std::optional<Vec2f> position_on_film(float time) const {
         Hit then = hit_;
         then.time = time;
-        constexpr Vec2f kMiddleOfLens{0.5f, 0.5f};
-        const CameraConnection view =
-            world_.camera().connect(world_.geometry().surface_point(then).position, kMiddleOfLens, time);
-        if (!(view.importance_area > 0.0f)) return std::nullopt;
-        return Vec2f(view.film.x * static_cast<float>(job_.full_width),
-                     view.film.y * static_cast<float>(job_.full_height));
+        const std::optional<Vec2f> film = world_.camera().project(world_.geometry().surface_point(then).position, time);
+        if (!film) return std::nullopt;
+        return Vec2f(film->x * static_cast<float>(job_.full_width), film->y * static_cast<float>(job_.full_height));
     }
 
     /// Returns the way from `first` to `last`, the shorter one around if the film goes on beyond its sides.

@@ -21,7 +21,8 @@ SurfaceAlbedo surface_albedo(const World& world, SurfacePoint& point, const Ray&
     SurfaceAlbedo albedo;
     if (point.material->unlit) return albedo;
     const Vec3f wo = -ray.direction;
-    const std::optional<Crossing> crossing = crossing_at(world, point, {ray, world.media().camera_interior(), hit});
+    const std::optional<Crossing> crossing =
+        crossing_at(world, point, {ray, world.media().interior_at_camera(ray), hit});
     Bsdf storage;
     const Bsdf& bsdf = world.materials().bsdf(point, wo, crossing ? crossing->relative_ior(0.0f) : 0.0f, storage);
     const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);

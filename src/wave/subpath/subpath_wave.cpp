@@ -57,8 +57,7 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
                     hits_[i] = intersect_one(job.world(), job.job, RayKind::Primary, rays_[i], counters);
         if (job.world().traits().clips_far && end_ == SubpathEnd::AtEye)
             for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen && job.world().camera().is_too_far(rays_[i], hits_[i]))
-                    hits_[i] = {};
+                if (states_[i].index == kDirectlySeen) hits_[i] = job.world().camera().cut_far(rays_[i], hits_[i]);
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
@@ -104,12 +103,10 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
     surfaces_ = 0;
     world.geometry().fetch_triangles(std::span(hits_).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
-        goes_on_[k] = false;
         block_[k].lane = surfaces_;
-        if (set_up(job, first + k, block_[k]))
-            on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
-        else
-            goes_on_[k] = hits_[first + k].valid();
+        const std::size_t i = first + k;
+        goes_on_[k] = world.traits().has_bodies && hits_[i].has_end() && scatter_in_medium(job, i);
+        if (!goes_on_[k] && set_up(job, i, block_[k])) on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
     }
     set_up_plain();
     arrive_at_surfaces(job, first);
@@ -144,7 +141,6 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         end_path(job, i, PathEnding::Escaped);
         return false;
     }
-    if (world.traits().has_bodies && scatter_in_medium(job, i)) return false;
     if (chooses_surfaces(world) && !is_lit(world, hits_[i], rays_[i].direction)) {
         hits_[i] = {};
         end_path(job, i, PathEnding::Absorbed);

@@ -10,7 +10,8 @@ namespace etendue {
 
 void SubpathWave::begin_at_eye(const SubpathJob& job) {
     PathWords& words = vertices_.words();
-    if (job.world().traits().has_bodies) interiors_.assign(states_.size(), job.world().media().camera_interior());
+    if (job.world().traits().has_bodies)
+        for (const Ray& ray : rays_) interiors_.push_back(job.world().media().interior_at_camera(ray));
     for (std::size_t i = 0; i < states_.size(); ++i) {
         states_[i].slot = static_cast<std::uint32_t>(i);
         states_[i].from = rays_[i].origin;

@@ -207,8 +207,9 @@ TEST(FirstHits, TheLayerAlbedoIsWhatTheIntegratorOfThatNameShows) {
 /// Returns the values in the middle pixel of a scene with a wall that faces the camera 2 m before it and is in
 /// `places` while the shutter is open; `camera_way` is the camera's own.
 std::vector<float> values_of_wall(std::span<const Vec3f> places, const Vec3f& camera_way,
-                                  std::shared_ptr<const AovSet> aovs) {
+                                  std::shared_ptr<const AovSet> aovs, const ClipDesc& clip = {}) {
     SceneDesc scene = empty_scene();
+    scene.cameras.front().clip = clip;
     scene.settings.film.width = kAgreementWidth;
     scene.settings.film.height = kAgreementHeight;
     add_object(scene, quad({0, 0, -2}, {4, 0, 0}, {0, 4, 0}), add_material(scene, diffuse(Rgb(0.5f))));
@@ -252,6 +253,19 @@ TEST(FirstHits, MotionIsHowFarPixelsMoveWhileTheShutterIsOpen) {
     const Vec2f still = motion_of_wall(Vec3f(0.0f), Vec3f(0.0f));
     EXPECT_EQ(still.x, 0.0f);
     EXPECT_EQ(still.y, 0.0f);
+}
+
+// What the camera shows for a part of the shutter's time alone moves all the while: from 2.5 m to 1.5 m away it goes
+// 0.4 m aside, of which the point in the middle has gone a share t.
+TEST(FirstHits, MotionIsOfWhatTheCameraDoesNotShowAllTheTimeToo) {
+    const float pixels = 0.5f * kAgreementHeight / std::tan(0.5f * empty_scene().cameras.front().yfov);
+    const std::vector<Vec3f> places{Vec3f(-0.2f, 0, -0.5f), Vec3f(0.2f, 0, 0.5f)};
+    const auto way = [&](float t) { return 0.4f * pixels * (t / 2.5f + (1.0f - t) / 1.5f); };
+    const std::vector<float> motion =
+        values_of_wall(places, Vec3f(0.0f), layers_of({}, {FirstHitValue::Motion}), {.start = 1.8f, .end = 2.2f});
+    const float tolerance = 0.02f * pixels;
+    EXPECT_GT(motion[0], way(0.7f) - tolerance);
+    EXPECT_LT(motion[0], way(0.3f) + tolerance);
 }
 
 // Cycles gives (-4, -1, -8, -2) for a plane that goes 4 pixels to the right and 1 up until the frame, and twice as far
