@@ -9,12 +9,12 @@
 
 namespace etendue {
 
-/// `barycentric` are the weights of the second and third vertex.
+/// Interpolates with the weights of the second and third vertex; where all three have one value, exactly that.
 template <typename T>
 [[nodiscard]] T interpolate(const std::vector<T>& values, const std::array<std::uint32_t, 3>& triangle,
                             Vec2f barycentric) {
-    return values[triangle[0]] * (1.0f - barycentric.x - barycentric.y) + values[triangle[1]] * barycentric.x +
-           values[triangle[2]] * barycentric.y;
+    const T& first = values[triangle[0]];
+    return first + (values[triangle[1]] - first) * barycentric.x + (values[triangle[2]] - first) * barycentric.y;
 }
 
 /// Interpolates texture coordinates; (0, 0) where the mesh has no such coordinates.

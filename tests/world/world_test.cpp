@@ -350,6 +350,26 @@ TEST(World, BacksAreSeenUnlessTheyAreToBeCulled) {
     EXPECT_FALSE(compile(scene).traits().culls_backs) << "bodies, and what is double-sided";
 }
 
+// What is interpolated between equal numbers is that number, so that a mask at its cutoff has no pinholes.
+TEST(World, AMaskAtItsCutoffIsWhole) {
+    Random random(8);
+    for (const float alpha : {0.3f, 0.7f, 0.45f}) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc mask = diffuse(Rgb(0.5f));
+        mask.alpha_mode = AlphaMode::Mask;
+        mask.alpha_cutoff = alpha;
+        PrimitiveDesc wall = quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+        wall.colors.assign(wall.positions.size(), Vec4f(1.0f, 1.0f, 1.0f, alpha));
+        add_object(scene, wall, add_material(scene, mask));
+        const World world = compile(std::move(scene));
+        for (int i = 0; i < 1000; ++i) {
+            const Vec2f at = random.next_2d();
+            const Ray ray{.origin = {1.8f * at.x - 0.9f, 1.8f * at.y - 0.9f, 0.0f}, .direction = {0, 0, -1}};
+            EXPECT_TRUE(intersect(world, ray).valid()) << alpha << ", " << at;
+        }
+    }
+}
+
 }  // namespace
 
 }  // namespace etendue::test
