@@ -50,6 +50,21 @@ bool contains(std::span<const std::string> names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
+/// Returns the layer that is the image: plain channels, or else the first that has R, G and B, as Blender names them.
+std::string layer_of_image(std::span<const std::string> names) {
+    const auto has = [&](const std::string& layer, const char* channel) {
+        return contains(names, layer.empty() ? channel : fmt::format("{}.{}", layer, channel));
+    };
+    const auto has_any = [&](const std::string& layer) {
+        return has(layer, "R") || has(layer, "G") || has(layer, "B");
+    };
+    if (has_any("")) return "";
+    for (const std::string& name : names)
+        if (const std::string layer = split(name).first; has(layer, "R") && has(layer, "G") && has(layer, "B"))
+            return layer;
+    return "";
+}
+
 void add_features(const Places& places, const std::map<std::string, std::vector<std::string>>& layers,
                   std::span<const std::string> features, std::span<const std::string> required, HalvesUse halves,
                   LayerPlan& plan) {
@@ -97,18 +112,25 @@ LayerPlan plan_layers(std::span<const std::string> names, const std::optional<st
         const auto [layer, channel] = split(names[i]);
         layers[layer].push_back(channel);
     }
-    for (const char* name : {"R", "G", "B"})
-        if (!places.contains(name)) throw std::invalid_argument(fmt::format("there is no channel {}", name));
-    for (const auto& [layer, channels] : layers) {
-        if (contains(features, layer) || (lights && !layer.empty() && !contains(*lights, layer))) continue;
-        if (halves == HalvesUse::None && !lights && !layer.empty()) continue;
-        if (auto found = find_layer(places, layer, rgb, halves)) plan.lights.push_back(std::move(*found));
-    }
-    if (plan.lights.empty() || !plan.lights.front().name.empty())
+    const std::string image = layer_of_image(names);
+    const auto named = [&](const char* channel) {
+        return image.empty() ? channel : fmt::format("{}.{}", image, channel);
+    };
+    for (const char* channel : {"R", "G", "B"})
+        if (!places.contains(named(channel)))
+            throw std::invalid_argument(fmt::format("there is no channel {}", named(channel)));
+    if (auto found = find_layer(places, image, rgb, halves))
+        plan.lights.push_back(std::move(*found));
+    else
         throw std::invalid_argument(fmt::format(
             "there are no channels {}, {} and {}, the image from half of the samples, which say how noisy it is; "
             "render with '--aov denoising' and more than one sample to have them, and without '--aov-layout files'",
-            half_channel("R"), half_channel("G"), half_channel("B")));
+            half_channel(named("R")), half_channel(named("G")), half_channel(named("B"))));
+    for (const auto& [layer, channels] : layers) {
+        if (layer == image || contains(features, layer) || (lights && !contains(*lights, layer))) continue;
+        if (halves == HalvesUse::None && !lights) continue;
+        if (auto found = find_layer(places, layer, rgb, halves)) plan.lights.push_back(std::move(*found));
+    }
     add_features(places, layers, features, required, halves, plan);
     return plan;
 }

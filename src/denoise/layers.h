@@ -19,7 +19,7 @@ enum class HalvesUse { Needed, None };
 
 /// Channels of one layer, as indices among those of the file, and those of its half in the same order, if it is needed.
 struct LayerChannels {
-    std::string name;  ///< empty for the beauty, whose channels are R, G and B
+    std::string name;  ///< empty for plain channels, R, G and B
     std::vector<int> whole;
     std::vector<int> half;
 };
@@ -35,10 +35,11 @@ struct LayerPlan {
 
 /// Finds the layers among the channels `names` of a file. A layer of light is one that has NAME.R, NAME.G and NAME.B,
 /// and their `half_channel` if halves are needed, and is one of `lights` if these are known (if neither
-/// halves nor lights say what is light, only the beauty is); a feature is one of `features`, of up to four channels,
-/// with their halves if needed. What lacks a half that is needed is kept as it is. Throws std::invalid_argument, with
-/// what to do about it, if there is no beauty with its half, a feature of `required` (a subset of `features`) is not
-/// there or not whole, or there are too many features.
+/// halves nor lights say what is light, only the beauty is). The beauty is plain R, G and B, or the first layer that
+/// has these, such as Blender's "ViewLayer.Combined". A feature is one of `features`, of up to four channels, with
+/// their halves if needed. What lacks a half that is needed is kept as it is. Throws std::invalid_argument, with what
+/// to do about it, if there is no beauty with its half, a feature of `required` (a subset of `features`) is not there
+/// or not whole, or there are too many features.
 [[nodiscard]] LayerPlan plan_layers(std::span<const std::string> names,
                                     const std::optional<std::vector<std::string>>& lights,
                                     std::span<const std::string> features, std::span<const std::string> required,

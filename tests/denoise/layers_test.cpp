@@ -63,6 +63,17 @@ TEST(Layers, WithoutHalvesOnlyWhatIsSaidToBeLight) {
     EXPECT_EQ(plan.kept.size(), names.size());
 }
 
+TEST(Layers, TheFirstWithColoursIsTheImageOfAFileOfBlenders) {
+    const Names names{"ViewLayer.Combined.A", "ViewLayer.Combined.B", "ViewLayer.Combined.G", "ViewLayer.Combined.R",
+                      "ViewLayer.Depth.Z",    "Back.Combined.B",      "Back.Combined.G",      "Back.Combined.R"};
+    const LayerPlan plan = plan_layers(names, std::nullopt, Names{"albedo", "N"}, {}, HalvesUse::None);
+    ASSERT_EQ(plan.lights.size(), 1u);
+    EXPECT_EQ(plan.lights[0].name, "ViewLayer.Combined");
+    EXPECT_EQ(plan.lights[0].whole, (std::vector<int>{3, 2, 1}));
+    EXPECT_EQ(plan.kept.size(), names.size());
+    EXPECT_TRUE(test::contains(refusal(names), "half_ViewLayer.Combined.R"));
+}
+
 TEST(Layers, AreFoundByTheirNames) {
     Names names = with_halves({"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
                                "diffuse.direct.R", "diffuse.direct.G", "diffuse.direct.B"});
