@@ -23,6 +23,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,11 +85,13 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     std::optional<TevViewer> tev;
     if (arguments.tev) tev.emplace(*arguments.tev);
     std::vector<ImageResult> results;
+    std::set<std::string> told;
     std::optional<SomethingToKeep> kept_from_signals;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
         ImageJobOptions options = arguments.job;
         options.force = arguments.force || (!is_sequence && !arguments.job.resume);
         if (is_sequence) options.title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
+        options.told = &told;
         if (page) options.watchers.push_back(&*page);
         if (tev) options.watchers.push_back(&*tev);
         ImageResult result = run_job(jobs[i], options, threads);

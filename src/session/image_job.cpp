@@ -86,7 +86,8 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
                                .title = options.title,
                                .command = options.command,
                                .is_lost = options.is_lost,
-                               .watchers = options.watchers};
+                               .watchers = options.watchers,
+                               .told = options.told};
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const OutputPaths paths = OutputPaths::beside(job.output, request.overrides.png);
     if (!options.force && !is_partial(job.output) &&

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,6 +65,7 @@ struct ImageJobOptions {
     std::string command{};                       ///< as in SceneRenderRequest
     const std::atomic<bool>* is_lost = nullptr;  ///< as in SceneRenderRequest
     std::vector<RenderWatcher*> watchers{};      ///< the same
+    std::set<std::string>* told = nullptr;       ///< the same
 };
 
 /// Renders the image unless it is up to date. Throws what `prepare_scene` and `render_scene` throw.

@@ -89,8 +89,7 @@ class SceneRender {
         if (!to_choose_.empty()) chosen = choice_from_elsewhere(kept);
         const World world = compile();
         if (!to_choose_.empty()) choose(world, std::move(chosen));
-        if (!request_.quiet)
-            for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
+        for (const std::string& note : notes_on(world, *integrator_, settings_)) tell("note: " + note);
         require_image_module();
         const SomethingToKeep kept_from_signals;
         RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
@@ -141,8 +140,13 @@ class SceneRender {
     }
 
     void report_problems() {
-        for (; reported_ < problems_.all().size(); ++reported_)
-            if (!request_.quiet) log_warning("{}", problems_.all()[reported_].str());
+        for (; reported_ < problems_.all().size(); ++reported_) tell(problems_.all()[reported_].str());
+    }
+
+    /// Writes `text` to stderr unless it was told of an earlier image.
+    void tell(const std::string& text) const {
+        if (!request_.quiet && (request_.told == nullptr || request_.told->insert(text).second))
+            log_warning("{}", text);
     }
 
     void describe_scene(PreparedScene& prepared, const std::string& hash, const std::string& requested) {

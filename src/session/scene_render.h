@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct SceneRenderRequest {
     /// Becomes true when the image is another's to make: nothing is written any more then. Null if it never does.
     const std::atomic<bool>* is_lost = nullptr;
     std::vector<RenderWatcher*> watchers{};  ///< look on, and outlive the render
+    /// Holds what was told of earlier images and is not told again; null tells all.
+    std::set<std::string>* told = nullptr;
 };
 
 /// Thrown by a render whose image has become another's to make.

@@ -640,6 +640,17 @@ TEST_F(CommandLine, LightSamplesReachTheIntegratorsThatSplitThem) {
     }
 }
 
+TEST_F(CommandLine, FramesSayOnceWhatIsTrueOfAll) {
+    const std::string box = animated_scene(scene("box"));
+    const ProgramResult result =
+        run({"render", box, "--frames", "0:1", "--integrator", "path", "--spp", "1", "--light-samples", "3"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string note = "note: 3 light samples have no effect";
+    const std::size_t first = result.err.find(note);
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find(note, first + 1), std::string::npos) << result.err;
+}
+
 TEST_F(CommandLine, FinishedFramesAreNotRenderedAgain) {
     const std::string box = animated_scene(scene("box", R"("frames": [0, 1],)"));
     const auto results = [&](const std::vector<std::string>& more) {
