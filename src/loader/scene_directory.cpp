@@ -133,18 +133,20 @@ fs::path directory_of(const fs::path& path, bool is_directory) {
 void note_camera(const SceneDesc& scene, ProblemList& problems) {
     if (!scene.settings.camera.empty() || scene.cameras.size() < 2) return;
     constexpr std::size_t kMostNames = 8;
-    std::string others;
-    for (std::size_t i = 1; i < std::min(scene.cameras.size(), kMostNames + 1); ++i) {
-        const CameraDesc& camera = scene.cameras[i];
+    const auto name_of = [&](const CameraDesc& camera) {
         // Of several nodes with one name, it names the first.
         const bool has_own_node = !camera.node.empty() && find_camera(scene, camera.node) == &camera;
-        others += fmt::format("{}'{}'", i == 1 ? "" : ", ", shown(has_own_node ? camera.node : camera.name));
+        return shown(has_own_node ? camera.node : camera.name);
+    };
+    std::string others;
+    for (std::size_t i = 1; i < std::min(scene.cameras.size(), kMostNames + 1); ++i) {
+        others += fmt::format("{}'{}'", i == 1 ? "" : ", ", name_of(scene.cameras[i]));
     }
     if (scene.cameras.size() > kMostNames + 1) others += " and more";
     problems.note({scene.file.string(), "/cameras"},
                   fmt::format("the file has {} cameras, of which the first, '{}', is taken; --camera NAME takes "
                               "another: {}",
-                              scene.cameras.size(), shown(scene.cameras.front().name), others));
+                              scene.cameras.size(), name_of(scene.cameras.front()), others));
 }
 
 void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scene, SweptSpace& swept,

@@ -57,12 +57,14 @@ void LightReader::place_punctual(const tinygltf::Node& node, std::size_t index, 
     light.outer_cone_angle = static_cast<float>(source.spot.outerConeAngle);
     light.to_world = to_world;
     light.location = document_.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
-    if (light.type != LightType::Spot || source.spot.innerConeAngle < source.spot.outerConeAngle) return;
-    problems_.warning(
-        light.location,
-        fmt::format("the spot's inner cone of {:.4g} should be narrower than the outer one of {:.4g}: the "
-                    "light ends at a hard edge",
-                    light.inner_cone_angle, light.outer_cone_angle));
+    // Exporters write single precision, also of the default for the outer cone, which is not.
+    if (light.type != LightType::Spot || light.inner_cone_angle <= light.outer_cone_angle) return;
+    if (warned_.insert(index).second)
+        problems_.warning(
+            light.location,
+            fmt::format("the spot's inner cone of {:.4g} should be narrower than the outer one of {:.4g}: the "
+                        "light ends at a hard edge",
+                        light.inner_cone_angle, light.outer_cone_angle));
     light.inner_cone_angle = light.outer_cone_angle;
 }
 

@@ -5,7 +5,9 @@
 #include "loader/gltf/gltf_document.h"
 #include "scene/scene_desc.h"
 
+#include <cstddef>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace etendue {
@@ -34,6 +36,7 @@ class LightReader {
     SceneDesc& scene_;
     ProblemList& problems_;
     std::map<int, Handle<IesProfileDesc>> profiles_;  ///< by their index in the file
+    std::set<std::size_t> warned_;                    ///< indices in the file of spots whose cones were warned of
 };
 
 }  // namespace etendue

@@ -64,7 +64,8 @@ class Placer {
             scene_.nodes.push_back(
                 {document_.model.nodes[node].name,
                  parent == kNoParent ? NodeDesc::kNone : node_index_[static_cast<std::size_t>(parent)],
-                 static_cast<std::uint32_t>(placed.node), to_float(placed.to_world)});
+                 static_cast<std::uint32_t>(placed.node), to_float(placed.to_world),
+                 !nodes_.motion(placed.node).empty()});
         }
     }
 

@@ -113,6 +113,7 @@ class LightChanges {
             if (change.kind) prepare(name, change, added);
         remove_or_soften();
         for (const LampToAdd& lamp : added) add(lamp);
+        note_moving(added);
     }
 
   private:
@@ -131,6 +132,7 @@ class LightChanges {
         const LightOverride* lamp;
         Mat4f to_world;
         std::uint32_t node = NodeDesc::kNone;
+        bool replaces = false;  ///< a lamp of the file stood there
     };
 
     [[nodiscard]] static SourceLocation at(const LightOverride& change, std::string_view key) {
@@ -244,6 +246,7 @@ class LightChanges {
             for (const std::size_t i : replaced) {
                 one.to_world = scene_.lights[i].to_world;
                 one.node = node_of(scene_.lights[i].node);
+                one.replaces = true;
                 added.push_back(one);
             }
         } else {
@@ -268,6 +271,18 @@ class LightChanges {
         else
             report(lamp, at(lamp, "node"),
                    fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
+    }
+
+    /// Notes lamps on nodes that move; whoever reads the file has told of those that they replace.
+    void note_moving(const std::vector<LampToAdd>& added) {
+        const auto count = std::ranges::count_if(added, [&](const LampToAdd& lamp) {
+            return !lamp.replaces && lamp.node != NodeDesc::kNone && scene_.nodes[lamp.node].moves;
+        });
+        if (count == 0) return;
+        problems_.note({scene_.file.string(), "/animations"},
+                       fmt::format("{} lamps of \"lights\" are on nodes that move while the shutter is open; they are "
+                                   "taken to stand still where they are in the middle of it",
+                                   count));
     }
 
     /// Puts surfaces in place of points that have a radius, and leaves out what is not wanted.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace etendue {
 
@@ -79,6 +80,28 @@ void focus_on_node(const SceneDesc& scene, const std::string& name, const Source
     else if (must_see)
         problems.error(
             where, fmt::format("the node '{}' is not in front of the camera '{}'", shown(name), shown(camera.name)));
+}
+
+/// Notes what is said of the lens of a camera that has none.
+void note_missing_lens(const LensSettings& lens, const SourceLocation& where, const CameraDesc& camera,
+                       ProblemList& problems) {
+    if (camera.type == CameraType::Perspective) return;
+    std::vector<std::string_view> ignored;
+    const auto ignore = [&](bool is_said, std::string_view key) {
+        if (is_said) ignored.push_back(key);
+    };
+    ignore(camera.lens_radius > 0.0f, "lens_radius");
+    ignore(lens.f_stop.has_value(), "f_stop");
+    ignore(lens.focus_distance.has_value(), "focus_distance");
+    ignore(!lens.focus_node.empty(), "focus_node");
+    ignore(camera.type != CameraType::Fisheye && lens.focal_length, "focal_length");
+    ignore(camera.type != CameraType::Fisheye && lens.sensor_width, "sensor_width");
+    ignore(camera.aperture.blades > 0, "blades");
+    ignore(camera.aperture.rotation != 0.0f, "blade_rotation");
+    ignore(camera.aperture.ratio != 1.0f, "aperture_ratio");
+    if (ignored.empty()) return;
+    problems.note(where, fmt::format("the camera '{}' has no lens, as perspective ones have, so that it ignores {}",
+                                     shown(camera.name), fmt::join(ignored, ", ")));
 }
 
 bool has_node(const SceneDesc& scene, const std::string& name, const SourceLocation& where, ProblemList& problems) {
@@ -195,6 +218,9 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
         if (camera.type == CameraType::Fisheye) apply_fisheye_lens(lens, scene.settings.film.aspect(), camera);
         if (is_photographic && camera.type == CameraType::Perspective)
             apply_photographic(lens, scene.settings.film.aspect(), camera);
+        if (change != nullptr || &camera == chosen)
+            note_missing_lens(lens, change != nullptr ? change->location : camera.location, camera, problems);
+        if (camera.type != CameraType::Perspective) camera.lens_radius = 0.0f;
         if (lens.focus_node.empty()) continue;
         const bool is_own = change != nullptr && !change->lens.focus_node.empty();
         const SourceLocation where = at_focus(lens.location);

@@ -39,6 +39,21 @@ Vec3f origin_after(const Mat4f& m) {
     return transform_point(m, Vec3f(0.0f));
 }
 
+TEST(GltfMotion, LampsOfRenderJsonStandStillOnNodesThatMove) {
+    const TempDir dir;
+    GltfBuilder builder = sliding();
+    builder.json["nodes"][0]["name"] = "Mover";
+    builder.write(dir);
+    dir.write("render.json", R"({"lights": {
+        "Ball": {"type": "sphere", "node": "Mover", "radius": 0.1, "power": 1},
+        "Disk": {"type": "disk", "node": "Mover", "power": 1},
+        "Still": {"type": "sphere", "position": [0, 9, 0], "power": 1}}})");
+    const LoadedScene loaded = inspect_scene(dir.path(), shutter(0.5, 0.0, 0.25));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "2 lamps of \"lights\" are on nodes that move"))
+        << listing(loaded.problems);
+    EXPECT_FALSE(has_problem(inspect_scene(dir.path()).problems, Severity::Note, "on nodes that move"));
+}
+
 TEST(GltfMotion, StraightMotionHasTwoSteps) {
     const LoadedScene loaded = sliding().load(shutter(0.5, 0.0, 0.25));
     ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);

@@ -363,6 +363,25 @@ TEST(RenderJson, MakesPanoramasOfCameras) {
     EXPECT_EQ(round.scene.cameras.at(0).type, CameraType::Equirectangular);
 }
 
+TEST(RenderJson, LensesOfCamerasWithoutAnyAreNoted) {
+    for (const char* type : {"orthographic", "equirectangular", "fisheye"}) {
+        const LoadedScene loaded =
+            load_lens(R"({"f_stop": 2, "cameras": {"main": {"blades": 5, "focal_length": 9, "type": ")" +
+                      std::string(type) + "\"}}}");
+        EXPECT_TRUE(has_problem(
+            loaded.problems, Severity::Note,
+            type == std::string("fisheye") ? "ignores f_stop, blades" : "ignores f_stop, focal_length, blades",
+            "/cameras/main"))
+            << listing(loaded.problems);
+        EXPECT_EQ(loaded.scene.cameras.at(0).lens_radius, 0.0f);
+    }
+    EXPECT_FALSE(has_problem(load_lens(R"({"f_stop": 2})").problems, Severity::Note, "ignores", ""));
+    const LoadedScene own =
+        load_lens(R"({"camera": {"type": "orthographic", "position": [0, 0, 5], "look_at": [0, 0, 0],
+        "ymag": 2, "lens_radius": 0.1}})");
+    EXPECT_TRUE(has_problem(own.problems, Severity::Note, "ignores lens_radius", "/camera")) << listing(own.problems);
+}
+
 TEST(RenderJson, CamerasThatAreNotThereOrNamedTwiceAreErrors) {
     const auto expect = [](const std::string& text, const std::string& message, const std::string& pointer) {
         const LoadedScene loaded = load_lens(text);
