@@ -366,12 +366,12 @@ Texel MipChain::mean() const {
 TexelRange MipChain::range() const {
     return with_texels([&]<int Channels>(const auto* values, std::integral_constant<int, Channels>) {
         using Value = std::remove_cvref_t<decltype(*values)>;
-        // A multiple of any number of channels, so that compilers compare many values at once.
-        constexpr std::size_t kBlock = 48;
+        // A multiple of any number of channels, and so large that compilers compare many values at once.
+        constexpr std::size_t kBlock = 768;
         const std::size_t count = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()) * Channels;
         std::array<Value, kBlock> least, greatest;
         for (std::size_t j = 0; j < kBlock; ++j) least[j] = greatest[j] = values[j % Channels];
-        const auto take = [&](std::size_t j, const Value& value) {
+        const auto take = [&](std::size_t j, Value value) {
             least[j] = std::min(least[j], value);
             greatest[j] = std::max(greatest[j], value);
         };
