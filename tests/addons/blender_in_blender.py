@@ -1,6 +1,7 @@
 """Runs inside Blender for blender_render_test.py: a function by its name, with words from the command line."""
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -100,6 +101,21 @@ def panels(answer):
     left = [panel.__name__ for panel in ours() if panel.is_registered]
     addon_utils.enable("etendue")
     Path(answer).write_text(json.dumps({"names": names, "left": left}))
+
+
+def files(blend, answer):
+    """Writes what the files of a scene have, and the notes."""
+    from etendue import export, glb
+    bpy.ops.wm.open_mainfile(filepath=blend)
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    folder = Path(answer).parent / "files"
+    exported = export.export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder, Path(os.environ["ETENDUE"]))
+    document = glb.read_glb(folder / "scene.glb")[0]
+    used = {document["materials"][primitive["material"]]["name"] for node in document["nodes"] if "mesh" in node
+            for primitive in document["meshes"][node["mesh"]]["primitives"]}
+    Path(answer).write_text(json.dumps({
+        "render": json.loads((folder / "render.json").read_text()), "notes": exported.notes, "used": sorted(used),
+        "materials": {material["name"]: material for material in document["materials"]}}))
 
 
 def install(file, program, folder):

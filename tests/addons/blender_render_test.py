@@ -180,6 +180,34 @@ class Renders(InBlender):
         self.assertIn("Ball", manifests["ViewLayer.CryptoObject"])
         self.assertNotIn("Ball", manifests["Without.CryptoObject"])
 
+    def test_what_the_exporter_does_not_know(self):
+        """An image at a Diffuse BSDF, fog around the camera, collections that hide, catchers and overrides, in the files."""
+        node = ("t = bpy.data.materials['Blue'].node_tree; d = next(n for n in t.nodes if n.type == 'BSDF_DIFFUSE'); ",
+                "i = t.nodes.new('ShaderNodeTexImage'); i.image = bpy.data.images.new('paint', 8, 8); "
+                "i.image.pixels.foreach_set([0.0, 1.0, 0.0, 1.0] * 64); t.links.new(i.outputs[0], d.inputs[0]); "
+                "bpy.data.objects['Floor'].is_shadow_catcher = True; l = bpy.context.view_layer; "
+                "c = bpy.data.collections.new('Away'); scene.collection.children.link(c); b = bpy.data.objects['Cube']; "
+                "scene.collection.objects.unlink(b); c.objects.link(b); l.layer_collection.children['Away'].indirect_only = True; "
+                "m = bpy.data.materials.new('Fog'); m.use_nodes = True; n = m.node_tree.nodes; n.remove(n['Principled BSDF']); "
+                "v = n.new('ShaderNodeVolumeScatter'); v.inputs['Density'].default_value = 0.01; "
+                "m.node_tree.links.new(v.outputs[0], n['Material Output'].inputs['Volume']); "
+                "bpy.ops.mesh.primitive_cube_add(size=40); bpy.context.object.data.materials.append(m); ")
+        for override in ("", "o = l.material_override = bpy.data.materials.new('Clay'); o.diffuse_color = (1, 0, 0, 1)"):
+            blend, image = self.simple("".join(node) + override)
+            answer = self.folder / "answer.json"
+            self.inside("files", blend, answer)
+            found = json.loads(answer.read_text())
+            entries, names = found["render"]["materials"], found["materials"]
+            if override:
+                self.assertEqual(entries["Clay"], {"diffuse": {"albedo": [1.0, 0.0, 0.0]}})
+                self.assertTrue(all(name.startswith("Clay") for name in found["used"]), found["used"])
+                continue
+            self.assertEqual(names["Blue"]["pbrMetallicRoughness"]["baseColorTexture"], {"index": 0})
+            self.assertEqual((entries["Blue"]["metallic"], entries["Fog"]["ior"], entries["Fog"]["solid"]), (0.0, 1.0, True))
+            self.assertTrue(entries["Grey that catches shadows"]["shadow_catcher"])
+            self.assertIs(entries["Red hidden from the camera"]["visible_to_camera"], False)
+            self.assertEqual(found["notes"], [])
+
     def test_an_error_is_said(self):
         for change, program, expected in (
                 ("bpy.context.view_layer.etendue.layers = 'glass=lpe:C (T'", PROGRAM, "render.json#/aovs/0: .*glass"),
