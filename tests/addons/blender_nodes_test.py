@@ -78,10 +78,10 @@ class Constants(unittest.TestCase):
         def output(target, active):
             return fake.Node("OUTPUT_MATERIAL", target=target, is_active_output=active)
 
-        for outputs, expected in (((output("EEVEE", True), output("ALL", False)), 1), ((output("ALL", True), output("CYCLES", False)), 1),
-                                  ((output("ALL", False), output("ALL", True)), 1)):
+        for outputs in ((output("EEVEE", True), output("ALL", False)), (output("ALL", True), output("CYCLES", False)),
+                        (output("ALL", False), output("ALL", True))):
             tree = fake.SimpleNamespace(nodes=outputs)
-            self.assertIs(nodes.active_output(tree, "OUTPUT_MATERIAL"), outputs[expected])
+            self.assertIs(nodes.active_output(tree, "OUTPUT_MATERIAL"), outputs[1])
 
 
 class Lamps(unittest.TestCase):
@@ -184,7 +184,8 @@ class Materials(unittest.TestCase):
         shader = fake.group(fake.principled(Base_Color=fake.Node("GROUP_INPUT", outputs=("Tint",)), Roughness=1.0, Metallic=0.0,
                                             Specular=0.25, Emission=(0, 0, 0, 1), Alpha=0.5), Tint=RED)
         found, result = self.material(shader)
-        self.assertEqual((found["base_color"], found["metallic"], found["roughness"], found["specular"]), ([0.8, 0.2, 0.1], 0.0, 1.0, 0.5))
+        self.assertEqual((found["base_color"], found["metallic"], found["roughness"], found["specular"]),
+                         ([0.8, 0.2, 0.1], 0.0, 1.0, 0.5))
         self.assertEqual((result.alphas, result.blended, result.notes), ({"M": 0.5}, {"M"}, []))
         override = self.material(fake.principled(Base_Color=RED, Metallic=1.0, Roughness=0.2, Emission=RED), whole=True)[0]
         self.assertEqual((override["base_color"], override["metallic"]), ([0.8, 0.2, 0.1], 1.0))
@@ -202,7 +203,8 @@ class Materials(unittest.TestCase):
         self.assertEqual(glossy, {"base_color": [0.8, 0.2, 0.1], "metallic": 1.0, "roughness": 0.4})
         leaf = self.material(fake.Node("BSDF_TRANSLUCENT", {"Color": RED}))[0]
         self.assertEqual((leaf["diffuse_transmission"], leaf["diffuse_transmission_color"]), (1.0, [0.8, 0.2, 0.1]))
-        self.assertEqual(self.material(fake.Node("BSDF_REFRACTION", {"Color": GREY, "Roughness": 0.0, "IOR": 1.3}))[0]["transmission"], 1.0)
+        bent = self.material(fake.Node("BSDF_REFRACTION", {"Color": GREY, "Roughness": 0.0, "IOR": 1.3}))[0]
+        self.assertEqual((bent["transmission"], bent["ior"]), (1.0, 1.3))
         wax = self.material(fake.Node("SUBSURFACE_SCATTERING", {"Color": RED, "Scale": 0.1, "Radius": (1.0, 0.5, 0.2)}))[0]
         self.assertEqual(wax["subsurface"]["radius"], [0.1, 0.05, 0.020000000000000004])
         self.assertEqual(self.material(transparent())[1].alphas, {"M": 0.0})
@@ -236,14 +238,15 @@ class Materials(unittest.TestCase):
         self.assertEqual((result.unbumped, result.notes), (set(), []))
 
     def test_value_nodes_are_no_textures(self):
-        found = self.material(fake.principled(Transmission=value(1.0), Roughness=fake.Node("REROUTE", {"Input": value(0.1)}), Sheen=value(1.0),
-                                              Base_Color=rgb(RED)))[0]
+        reroute = fake.Node("REROUTE", {"Input": value(0.1)})
+        found = self.material(fake.principled(Transmission=value(1.0), Roughness=reroute, Sheen=value(1.0), Base_Color=rgb(RED)))[0]
         self.assertEqual((found["transmission"], found["roughness"], found["base_color"]), (1.0, 0.1, [0.8, 0.2, 0.1]))
         self.assertGreater(max(found["sheen_color"]), 0.1)
 
     def test_procedural_inputs_are_neither_white_nor_metal_nor_light(self):
         noise = fake.Node("TEX_NOISE", {"Scale": 5.0}, ("Color",))
-        found, result = self.material(fake.principled(Base_Color=noise, Metallic=noise, Roughness=noise, Transmission=noise, Emission=noise))
+        found, result = self.material(fake.principled(Base_Color=noise, Metallic=noise, Roughness=noise, Transmission=noise,
+                                                      Emission=noise))
         self.assertEqual(found, {"base_color": [0.8] * 3, "metallic": 0.0, "roughness": 0.5, "transmission": 0.0,
                                  "emission": {"color": [0.0] * 3}})
         self.assertIn("material 'M': nodes that are not brought over: 'TEX_NOISE'", result.notes)
@@ -291,7 +294,8 @@ class Volumes(unittest.TestCase):
         return [a * b for a, b in zip(albedo, extinction)] + extinction
 
     def test_media_are_those_of_cycles(self):
-        principled = fake.Node("PRINCIPLED_VOLUME", {"Color": GREY, "Density": value(4.0), "Anisotropy": 0.5, "Absorption Color": (0.0,) * 4})
+        principled = fake.Node("PRINCIPLED_VOLUME", {"Color": GREY, "Density": value(4.0), "Anisotropy": 0.5,
+                                                     "Absorption Color": (0.0,) * 4})
         both = fake.Node("ADD_SHADER", {"Shader": self.scatter(forward=0.3), "Shader__2": self.absorption(density=6.0)})
         for volume, scattering, extinction in ((self.scatter(), 1.0, 1.0), (self.absorption(), 0.0, 1.0), (principled, 2.0, 4.0),
                                                (both, 1.0, 4.0)):
@@ -331,7 +335,8 @@ class Document(unittest.TestCase):
     def test_alpha_bumps_and_sides(self):
         document, _ = self.mend(blended={"A"}, alphas={"A": 0.5}, unbumped={"A"})
         self.assertEqual(document["materials"], [
-            {"name": "A", "alphaMode": "BLEND", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [1.0, 1.0, 1.0, 0.5]}},
+            {"name": "A", "alphaMode": "BLEND", "doubleSided": True,
+             "pbrMetallicRoughness": {"baseColorFactor": [1.0, 1.0, 1.0, 0.5]}},
             {"name": "B", "doubleSided": True}])
 
     def test_fog_that_is_not_read_is_left_out(self):

@@ -17,6 +17,7 @@ from mathutils import Matrix, Quaternion, Vector
 from . import glb, glb_materials, overlooked, passes, scene_settings
 from .exr import write_exr
 from .images import image_bytes
+from .overlooked import SURFACES
 from .program import known_part
 
 Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
@@ -32,8 +33,6 @@ OPTIONS: dict[str, Any] = {
     "convert_lighting_mode": "COMPAT", "export_import_convert_lighting_mode": "COMPAT", "will_save_settings": False,
     "check_existing": False, "export_original_specular": False, "export_hierarchy_full_collections": False,
 }
-# Kinds of objects that become meshes.
-SURFACES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 
 
 class ExportError(Exception):

@@ -41,7 +41,8 @@ def emission_of_nodes(name: str, light: Any, written: Written) -> tuple[list[flo
 
 
 def lamp(item: Any, version: Sequence[int], written: Written) -> Document:
-    """An entry of `lights`, for Blender's `version`. The lamp stands at the node with its object's name, which the exporter leaves in any case."""
+    """An entry of `lights`, for Blender's `version`. The lamp stands at the node with its object's name, which the exporter
+    leaves in any case."""
     light = item.data
     tint, strength = emission_of_nodes(item.name, light, written)
     power = light.energy * strength * 2.0 ** getattr(light, "exposure", 0.0)

@@ -14,6 +14,8 @@ OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.2, 0.3
 BLACK, GREY, WHITE = [0.0] * 3, [0.8] * 3, [1.0] * 3
 COLOR, TRANSMISSION = ("Base Color",), ("Transmission Weight", "Transmission")
 EMISSION = ("Emission Color", "Emission")
+# Names of factors, those of inputs, and values of the Principled BSDF.
+FACTORS = (("metallic", ("Metallic",), 0.0), ("roughness", ("Roughness",), 0.5), ("transmission", TRANSMISSION, 0.0))
 GLOSSY = ("BSDF_GLOSSY", "BSDF_ANISOTROPIC")
 
 
@@ -189,9 +191,9 @@ class Reader:
     def translucent(self, shader: Seen) -> Document:
         self.flat(shader)
         return {"base_color": BLACK, "metallic": 0.0, "roughness": 1.0, "specular": 0.0, "diffuse_transmission": 1.0,
-                "diffuse_transmission_color": clamped(shader.value("Color") or self.average(shader, "Color"))}
+                "diffuse_transmission_color": clamped(shader.value("Color") or self.unread(shader, "Color"))}
 
-    def average(self, shader: Seen, name: str) -> list[float]:
+    def unread(self, shader: Seen, name: str) -> list[float]:
         self.note(f"what is linked to '{name}' of '{shader.name}' is not brought over")
         return GREY
 
@@ -201,7 +203,7 @@ class Reader:
         self.written.alphas[self.material.name] = self.written.alphas.get(self.material.name, 1.0) * min(max(alpha, 0.0), 1.0)
 
     def transparent(self, shader: Seen) -> Document:
-        color = clamped(shader.value("Color") or self.average(shader, "Color"))
+        color = clamped(shader.value("Color") or self.unread(shader, "Color"))
         if max(color) - min(color) > 0.01:
             self.note(f"the tint of '{shader.name}' is not brought over")
         self.cover(1.0 - sum(color) / 3.0)
@@ -281,7 +283,7 @@ class Reader:
     def unseen(self, shader: Seen) -> Document:
         """Factors that the exporter does not read: what is linked to constants, and all where it has not seen the shader."""
         hidden, result = self.whole or bool(shader.groups), {}
-        for key, names, usual in (("metallic", ("Metallic",), 0.0), ("roughness", ("Roughness",), 0.5), ("transmission", TRANSMISSION, 0.0)):
+        for key, names, usual in FACTORS:
             value = shader.value(*names, default=usual)
             if value is not None and (hidden or shader.is_linked(*names)):
                 result[key] = min(max(value, 0.0), 1.0)

@@ -11,6 +11,7 @@ SHOWN = 4  # names in a note
 KINDS = {"VOLUME": "volumes", "GPENCIL": "grease pencil", "GREASEPENCIL": "grease pencil", "CURVES": "hair",
          "POINTCLOUD": "clouds of points"}
 RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow")
+# Kinds of objects that become meshes.
 SURFACES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 
 
@@ -31,7 +32,8 @@ def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
                "light linking is not brought over")]
     groups = sorted(group.name for group in getattr(view_layer, "lightgroups", ()))
     said = [f"light groups are not brought over: {listed(groups)}"] if groups else []
-    return said + [f"{text}: {listed(names)}" for test, text in tests if (names := sorted({item.name for item in items if test(item)}))]
+    found = ((text, sorted({item.name for item in items if test(item)})) for test, text in tests)
+    return said + [f"{text}: {listed(names)}" for text, names in found if names]
 
 
 def listed(names: list[str]) -> str:

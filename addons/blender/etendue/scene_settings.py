@@ -202,8 +202,8 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     lights = {item.name: lamp(item, version, written) for item in objects if item.type == "LIGHT" and not is_portal(item.data)}
     if lights:
         document["lights"] = lights
-    override = getattr(view_layer, "material_override", None)
-    entries = {item.name: material(item, closed, written, override is not None and item.name == override.name) for item, closed in materials}
+    override = getattr(getattr(view_layer, "material_override", None), "name", None)
+    entries = {item.name: material(item, closed, written, item.name == override) for item, closed in materials}
     entries = {name: entry for name, entry in entries.items() if entry}
     if entries:
         document["materials"] = entries
