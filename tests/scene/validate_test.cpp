@@ -99,7 +99,7 @@ const Defect kDefects[] = {
      }},
     {"DielectricIorBelowOne", "[1, 3]",
      [](SceneDesc& s) {
-         s.materials[0].override_model = DielectricDesc{1.0f, 0.0f};
+         s.materials[0].override_model = DielectricDesc{0.9f, 0.0f};
      }},
     {"AlbedoAboveOne", "albedo", [](SceneDesc& s) { s.materials[0].override_model = DiffuseDesc{Rgb(1.5f)}; }},
     {"PositionInfinite", "positions 1", [](SceneDesc& s) { primitive(s).positions[1].x = kInf; }},

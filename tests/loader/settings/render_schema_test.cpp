@@ -280,7 +280,7 @@ const char* const kBad[] = {
     R"({"materials": {"a": {"dielectric": {"dispersion": -1}}}})",
     R"({"materials": {"a": {"dielectric": {"multiscatter_color": 1}}}})",
     R"({"materials": {"a": {"dielectric": {"scatter_anisotropy": -1}}}})",
-    R"({"materials": {"a": {"dielectric": {"ior": 1}}}})",
+    R"({"materials": {"a": {"dielectric": {"ior": 0.9}}}})",
     R"({"materials": {"a": {"dielectric": {"ior": 3.5}}}})",
     R"({"materials": {"a": {"diffuse": {"albedo": [0, 0, 1.5]}}}})",
     R"({"materials": {"a": {"emission": {"strength": -1}}}})",
