@@ -65,41 +65,85 @@ class ExitCounts {
     std::size_t size_ = 0;
 };
 
-enum class Boundaries { All, Moving };
+/// Bounds where the surface of `geometry`, or one triangle of it, is while the shutter is open.
+class SweptBounds {
+  public:
+    SweptBounds(const WorldData& data, const Instance& instance, const Geometry& geometry)
+        : transforms_(instance.motion == kNone ? std::span(&instance.to_world, 1)
+                                               : std::span(data.motions[instance.motion])),
+          geometry_(geometry) {}
 
-/// Returns whether a boundary of these, or a box around one of its triangles, passes through `region` while the shutter
-/// is open.
-bool passes_through(const WorldData& data, const Bounds& region, Boundaries which) {
-    const auto passes = [&](const Instance& instance, std::uint32_t g) {
-        const Geometry& geometry = data.geometries[instance.first_geometry + g];
-        const bool is_body = data.body_of_slot[instance.first_light_slot + g] != kNone;
-        const bool moves = instance.motion != kNone || !geometry.motion.empty();
-        if (!is_body || (which == Boundaries::Moving && !moves)) return false;
-        // Between two steps all goes in straight lines, so that corners at all steps bound it.
-        const std::span<const Mat4f> transforms =
-            instance.motion == kNone ? std::span(&instance.to_world, 1) : std::span(data.motions[instance.motion]);
-        const auto extend = [&](Bounds& bounds, const Vec3f& corner) {
-            for (const Mat4f& transform : transforms) bounds.extend(transform_point(transform, corner));
+    [[nodiscard]] Bounds whole() const {
+        Bounds bounds;
+        for (std::uint32_t v = 0; v < geometry_.positions.size(); ++v) extend(bounds, v);
+        return bounds;
+    }
+    [[nodiscard]] Bounds of(const std::array<std::uint32_t, 3>& triangle) const {
+        Bounds bounds;
+        for (const std::uint32_t v : triangle) extend(bounds, v);
+        return bounds;
+    }
+
+  private:
+    void extend(Bounds& bounds, std::uint32_t vertex) const {
+        // Between two steps all goes in straight lines, so that the places at all steps bound it.
+        const auto extend_by = [&](const Vec3f& position) {
+            for (const Mat4f& transform : transforms_) bounds.extend(transform_point(transform, position));
         };
-        if (geometry.shape) {
-            Bounds bounds;
-            for (const Vec3f& corner : geometry.positions) extend(bounds, corner);
-            return overlap(bounds, region);
+        if (geometry_.motion.empty()) extend_by(geometry_.positions[vertex]);
+        for (const VertexStep& step : geometry_.motion) extend_by(step.positions[vertex]);
+    }
+
+    std::span<const Mat4f> transforms_;
+    const Geometry& geometry_;
+};
+
+/// Calls `visit` with every boundary, and whether it moves while the shutter is open.
+template <typename Visit>
+void for_each_boundary(const WorldData& data, const Visit& visit) {
+    for (const Instance& instance : data.instances)
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+            const Geometry& geometry = data.geometries[instance.first_geometry + g];
+            if (data.body_of_slot[instance.first_light_slot + g] != kNone)
+                visit(instance, geometry, instance.motion != kNone || !geometry.motion.empty());
         }
-        return std::ranges::any_of(geometry.triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
-            Bounds bounds;
-            for (const std::uint32_t corner : triangle) {
-                if (geometry.motion.empty()) extend(bounds, geometry.positions[corner]);
-                for (const VertexStep& step : geometry.motion) extend(bounds, step.positions[corner]);
-            }
-            return overlap(bounds, region);
-        });
-    };
-    return std::ranges::any_of(data.instances, [&](const Instance& instance) {
-        for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
-            if (passes(instance, g)) return true;
-        return false;
+}
+
+/// Returns boxes around the boundaries that move while the shutter is open.
+std::vector<Bounds> moving_boundaries(const WorldData& data) {
+    std::vector<Bounds> boxes;
+    for_each_boundary(data, [&](const Instance& instance, const Geometry& geometry, bool moves) {
+        if (moves) boxes.push_back(SweptBounds(data, instance, geometry).whole());
     });
+    return boxes;
+}
+
+/// Returns whether a boundary may lie between places in `region` while the shutter is open: a box around one of its
+/// triangles meets the region. Of a single place, only what moves can be on both sides.
+bool is_divided(const WorldData& data, const Bounds& region) {
+    bool found = false;
+    for_each_boundary(data, [&](const Instance& instance, const Geometry& geometry, bool moves) {
+        if (found || (region.min == region.max && !moves)) return;
+        const SweptBounds swept(data, instance, geometry);
+        if (!overlap(swept.whole(), region)) return;
+        found = geometry.shape.has_value() || std::ranges::any_of(geometry.triangles, [&](const auto& triangle) {
+                    return overlap(swept.of(triangle), region);
+                });
+    });
+    return found;
+}
+
+/// Returns whether a boundary may pass over `light`; `moving` are boxes around those that move.
+bool is_passed_over(const Light& light, const std::vector<Bounds>& moving) {
+    return std::visit(
+        [&](const auto& kind) {
+            // What is infinitely far away begins outside of all bodies.
+            if constexpr (requires { kind.bounds(); })
+                return std::ranges::any_of(moving, [&](const Bounds& box) { return overlap(box, kind.bounds().box); });
+            else
+                return false;
+        },
+        light);
 }
 
 }  // namespace
@@ -111,29 +155,19 @@ float Crossing::relative_ior(float nm) const {
 Media::Media(const WorldData& data, const SceneGeometry& geometry, const SceneCamera& camera)
     : data_(data), geometry_(geometry) {
     if (data_.filling_of_body.empty()) return;
-    const Bounds origins = camera.bounds_of_origins();
-    // A point is in one place, whatever stands still.
-    const Boundaries which = origins.min == origins.max ? Boundaries::Moving : Boundaries::All;
     camera_interior_.reset();
-    if (!passes_through(data_, origins, which))
+    if (!is_divided(data_, camera.bounds_of_origins()))
         camera_interior_ = interior_at(camera.generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin, kMiddle);
+    const std::vector<Bounds> moving = moving_boundaries(data_);
     for (std::uint32_t light = 0; light < data_.lights.size(); ++light)
-        light_interiors_.push_back(find_light_interior(light));
+        light_interiors_.push_back(is_passed_over(data_.lights[light], moving) ? std::nullopt
+                                                                               : find_light_interior(light));
 }
 
 std::optional<Interior> Media::find_light_interior(std::uint32_t light) const {
     // A part of the light that is in other bodies is missed with the chance (1 - its share of the emission)^32.
     constexpr std::uint32_t kRays = 32;
     if (!data_.planes_of(light).empty()) return {};
-    const bool is_passed = std::visit(
-        [&](const auto& kind) {
-            if constexpr (requires { kind.bounds(); })
-                return passes_through(data_, kind.bounds().box, Boundaries::Moving);
-            else
-                return false;
-        },
-        data_.lights[light]);
-    if (is_passed) return {};
     std::optional<Interior> common;
     for (std::uint32_t i = 0; i < kRays; ++i) {
         const auto numbers = [&](std::uint32_t d) { return sample_2d(SampleSequence::Sobol, {.index = i}, d); };

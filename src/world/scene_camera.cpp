@@ -66,7 +66,7 @@ Hit SceneCamera::cut_far(const Ray& ray, const Hit& hit) const {
 }
 
 Bounds SceneCamera::bounds_of_origins() const {
-    const Bounds still = etendue::bounds_of_origins(data_.camera);
+    Bounds still = etendue::bounds_of_origins(data_.camera);
     if (data_.camera_motion.empty()) return still;
     // However the camera turns, rays begin no farther from where it stands.
     const Vec3f& position = pose_of(data_.camera).position;
