@@ -60,8 +60,7 @@ std::string layer_of_image(std::span<const std::string> names) {
     };
     if (has_any("")) return "";
     for (const std::string& name : names)
-        if (const std::string layer = split(name).first; has(layer, "R") && has(layer, "G") && has(layer, "B"))
-            return layer;
+        if (std::string layer = split(name).first; has(layer, "R") && has(layer, "G") && has(layer, "B")) return layer;
     return "";
 }
 
