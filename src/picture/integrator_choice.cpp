@@ -85,6 +85,7 @@ std::vector<std::string> replace_auto(RenderSettings& settings) {
 IntegratorChoice choose_integrator(const World& world, const RenderSettings& settings,
                                    const std::vector<std::string>& integrators, const ThreadPool& threads) {
     std::vector<std::size_t> compared;
+    compared.reserve(integrators.size());
     for (const std::string& name : integrators)
         compared.push_back(static_cast<std::size_t>(std::ranges::find(kComparedNames, name) - kComparedNames.begin()));
     if (settings.integrator.lengths.max_depth <= kDirectEdges || !world.traits().has_lights)

@@ -152,9 +152,9 @@ TEST(UnreachableLight, MergingSaysWhatItsOptionsLeaveOut) {
         return vcm_says(world, {.lengths = {.max_depth = max_depth}, .strategy = kMerges, .merging = {.at = at}});
     };
     EXPECT_EQ(alone(4, MergeAt::SeenByDeltas), "");
-    EXPECT_NE(alone(3, MergeAt::SeenByDeltas).find("have 4 edges at least"), std::string::npos);
+    EXPECT_NE(alone(3, MergeAt::SeenByDeltas).find("have 4 edges at least, and"), std::string::npos);
     EXPECT_EQ(alone(2, MergeAt::Everywhere), "");
-    EXPECT_NE(alone(1, MergeAt::Everywhere).find("have 2 edges at least"), std::string::npos);
+    EXPECT_NE(alone(1, MergeAt::Everywhere).find("have 2 edges at least, and"), std::string::npos);
 }
 
 TEST(UnreachableLight, TheSkyItselfIsNotFoundFromTheLight) {

@@ -16,14 +16,15 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
             settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
     if (settings_.strategy == kMerges && !may_merge(world))
         sentences.emplace_back("the image stays black: no vertices merge; '--merge all' merges everywhere");
-    // Hidden boundaries are for merges what mirrors are, and add no edges.
-    const bool needs_mirrors = settings_.merging.at == MergeAt::SeenByDeltas && !world.traits().has_bodies;
+    const bool needs_mirrors = settings_.merging.at == MergeAt::SeenByDeltas;
     const int merged_edges = needs_mirrors ? 4 : 2;
     if (settings_.strategy == kMerges && may_merge(world) && merged_edges > settings_.lengths.max_depth)
-        sentences.push_back(
-            fmt::format("the image stays black: paths that merge have {} edges at least, and the longest that are kept "
-                        "have {}",
-                        merged_edges, settings_.lengths.max_depth));
+        sentences.push_back(fmt::format(
+            "the image stays black: paths that merge have {} edges at least{}, and the longest that are kept have {}",
+            merged_edges,
+            needs_mirrors && world.traits().has_bodies ? ", but for those through boundaries that other bodies hide"
+                                                       : "",
+            settings_.lengths.max_depth));
     if (world.traits().has_delta_lights && world.traits().has_specular_surfaces && !settings_.strategy &&
         settings_.merging.at == MergeAt::Nothing)
         sentences.emplace_back(
