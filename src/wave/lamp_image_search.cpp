@@ -81,8 +81,9 @@ class ImageFinder {
         find_ways(first, kBlocks, kBlocks, kBlockSide);
         const std::vector<std::uint32_t> ways = ways_;
         const auto corner_of = [&](std::size_t block) {
-            return first + Vec2f(static_cast<float>(block % kBlocks), static_cast<float>(block / kBlocks)) *
-                               static_cast<float>(kBlockSide);
+            const std::size_t row = block / kBlocks;
+            return first +
+                   Vec2f(static_cast<float>(block % kBlocks), static_cast<float>(row)) * static_cast<float>(kBlockSide);
         };
         for (std::size_t block = 0; block < kBlocks * kBlocks; ++block)
             if (is_even(ways, kBlocks, block % kBlocks, block / kBlocks))
