@@ -2,6 +2,7 @@
 
 #include "integrator/bdpt/connection_lanes.h"
 #include "support/random.h"
+#include "wave/subpath/matte_lanes.h"
 #include "wave/subpath/path_vertex.h"
 
 #include <algorithm>
