@@ -105,6 +105,24 @@ class Lamps(unittest.TestCase):
         self.assertIs(square["visible_to_camera"], False)
         self.assertNotIn("visible_to_camera", self.lamp("AREA", visible=True))
 
+    def test_odd_values_are_clamped_and_told_of(self):
+        lamps = [fake.item("Dark", fake.light("POINT", energy=-3.0), "LIGHT"), fake.item("Flat", fake.light("AREA", size=0.0), "LIGHT"),
+                 fake.item("Day", fake.light("SUN", energy=-1.0), "LIGHT"), fake.item("Fine", fake.light("POINT"), "LIGHT")]
+        scene = fake.scene()
+        scene.world = fake.world(fake.Node("BACKGROUND", {"Color": (1, 1, 1, 1), "Strength": -2.0}))
+        result = written(scene, lamps)
+        lights = result.document["lights"]
+        self.assertEqual((lights["Dark"]["power"], lights["Day"]["irradiance"], result.document["environment"]["scale"]), (0, 0, 0))
+        self.assertEqual((lights["Flat"]["width"], lights["Flat"]["height"]), (scene_settings.LEAST_SIZE,) * 2)
+        self.assertEqual([note.partition(":")[0] for note in result.notes],
+                         ["the world", "lamp 'Dark'", "lamp 'Flat'", "lamp 'Flat'", "lamp 'Day'"])
+
+    def test_names_are_those_that_the_file_has(self):
+        lamps, materials = [fake.item("L", fake.light("POINT"), "LIGHT")], [(fake.material("M", fake.principled(Sheen=1.0)), True)]
+        document = written(objects=lamps, materials=materials, name_of=lambda item: f"{item.name} [a]").document
+        self.assertEqual((document["camera"], list(document["cameras"]), list(document["lights"]), list(document["materials"])),
+                         ("View [a]", ["View [a]"], ["L [a]"], ["M [a]"]))
+
     def test_nodes_multiply(self):
         node = fake.Node("EMISSION", {"Color": (0.5, 1.0, 1.0, 1.0), "Strength": 3.0})
         lamp = self.lamp("POINT", use_nodes=True, node_tree=fake.tree("OUTPUT_LIGHT", node))

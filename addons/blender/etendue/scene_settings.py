@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from .lamps import is_portal, lamp, spot_cones
@@ -16,6 +16,7 @@ from .written import Document, Written
 __all__ = ["Document", "Written", "anisotropy", "environment", "lamp", "material", "mist", "spot_cones", "write"]
 
 REC709 = "Linear Rec.709 (sRGB)"
+LEAST_SIZE = 1e-4  # metres of the side of a lamp
 
 
 # --- the image
@@ -158,11 +159,20 @@ def camera_settings(camera: Any, written: Written, width: float, height: float) 
 
 # --- all of it
 
+def clamp(entry: Document, what: str, written: Written) -> None:
+    """Brings strengths below 0 and sizes of 0, which Blender has, into what the program takes."""
+    for key, least in (("power", 0.0), ("irradiance", 0.0), ("scale", 0.0), ("width", LEAST_SIZE), ("height", LEAST_SIZE)):
+        if entry.get(key, least) < least:
+            written.notes.append(f"{what}: its {key} of {entry[key]:g} is brought over as {least:g}")
+            entry[key] = least
+
+
 def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, bool]], aovs: Sequence[str],
           moving: tuple[float, float] | None = None, camera: Any = None, version: Sequence[int] = (3, 4, 0),
-          view_layer: Any = None) -> Written:
+          view_layer: Any = None, name_of: Callable[[Any], str] = lambda item: item.name) -> Written:
     """render.json for a scene of Blender's `version`: `objects` are those that are rendered, `materials` theirs, each with
-    whether all meshes that have it are closed, `moving` the seconds in which the shutter is open."""
+    whether all meshes that have it are closed, `moving` the seconds in which the shutter is open. `name_of` gives the names
+    that the file has."""
     written = Written()
     render, settings = scene.render, scene.etendue
     camera = camera or scene.camera
@@ -172,7 +182,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
         "integrator": integrator_settings(settings), "film": film_settings(render, settings),
         "color": {"working_space": REC709 if settings.working_space == "REC709" else "ACEScg", "output_space": REC709,
                   "view": "Un-tone-mapped", "exposure": 0.0},
-        "camera": camera.name}
+        "camera": name_of(camera)}
     window = border(render)
     if window is not None:
         document["crop"] = list(window)
@@ -192,20 +202,24 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
         document |= {"time_code": 0.0, "shutter": list(moving)}
     matrix = camera.matrix_world
     document |= lens(camera.data, matrix, *view_size(render))
-    document["cameras"] = {camera.name: camera_settings(camera.data, written, *view_size(render))}
+    document["cameras"] = {name_of(camera): camera_settings(camera.data, written, *view_size(render))}
     lit = getattr(view_layer, "use_sky", True)
     given = environment(scene.world, render.film_transparent, written) if lit else None
     if given is not None:
         document["environment"] = given
     else:
         document["studio"] = False  # a scene without light is black in Blender
-    lights = {item.name: lamp(item, version, written) for item in objects if item.type == "LIGHT" and not is_portal(item.data)}
+    lights = {name_of(item): lamp(item, version, written) for item in objects
+              if item.type == "LIGHT" and not is_portal(item.data)}
     if lights:
         document["lights"] = lights
-    override = getattr(getattr(view_layer, "material_override", None), "name", None)
-    entries = {item.name: material(item, closed, written, item.name == override) for item, closed in materials}
+    override = getattr(view_layer, "material_override", None)
+    entries = {name_of(item): material(item, closed, written, item == override) for item, closed in materials}
     entries = {name: entry for name, entry in entries.items() if entry}
     if entries:
         document["materials"] = entries
+    clamp(document.get("environment", {}), "the world", written)
+    for name, entry in document.get("lights", {}).items():
+        clamp(entry, f"lamp '{name}'", written)
     written.document = document
     return written
