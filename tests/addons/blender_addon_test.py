@@ -16,7 +16,7 @@ import zipfile
 from pathlib import Path
 
 import fake_blender as fake
-from etendue import child, glb, passes, program, scene_settings
+from etendue import child, glb, identity, overlooked, passes, program, scene_settings, vertex_colors, viewport
 
 try:
     import numpy
@@ -106,7 +106,8 @@ class Lamps(unittest.TestCase):
         self.assertNotIn("visible_to_camera", self.lamp("AREA", visible=True))
 
     def test_odd_values_are_clamped_and_told_of(self):
-        lamps = [fake.item("Dark", fake.light("POINT", energy=-3.0), "LIGHT"), fake.item("Flat", fake.light("AREA", size=0.0), "LIGHT"),
+        lamps = [fake.item("Dark", fake.light("POINT", energy=-3.0), "LIGHT"),
+                 fake.item("Flat", fake.light("AREA", size=0.0), "LIGHT"),
                  fake.item("Day", fake.light("SUN", energy=-1.0), "LIGHT"), fake.item("Fine", fake.light("POINT"), "LIGHT")]
         scene = fake.scene()
         scene.world = fake.world(fake.Node("BACKGROUND", {"Color": (1, 1, 1, 1), "Strength": -2.0}))
@@ -115,7 +116,7 @@ class Lamps(unittest.TestCase):
         self.assertEqual((lights["Dark"]["power"], lights["Day"]["irradiance"], result.document["environment"]["scale"]), (0, 0, 0))
         self.assertEqual((lights["Flat"]["width"], lights["Flat"]["height"]), (scene_settings.LEAST_SIZE,) * 2)
         self.assertEqual([note.partition(":")[0] for note in result.notes],
-                         ["the world", "lamp 'Dark'", "lamp 'Flat'", "lamp 'Flat'", "lamp 'Day'"])
+                         ["lamp 'Dark'", "lamp 'Day'", "the world", "lamp 'Flat'", "lamp 'Flat'"])
 
     def test_names_are_those_that_the_file_has(self):
         lamps, materials = [fake.item("L", fake.light("POINT"), "LIGHT")], [(fake.material("M", fake.principled(Sheen=1.0)), True)]
@@ -315,7 +316,7 @@ class Glb(unittest.TestCase):
 
     def test_what_is_not_rendered_is_left_out_and_its_children_stay(self):
         document = {"nodes": [{"name": "A", "mesh": 0, "children": [1]}, {"name": "B", "mesh": 1}]}
-        self.assertEqual(glb.leave_out(document, {"B"}), ["A"])
+        self.assertEqual(glb.leave_out(document, {1}), ["A"])
         self.assertEqual(document["nodes"], [{"name": "A", "children": [1]}, {"name": "B", "mesh": 1}])
 
     def test_what_has_no_material_gets_that_of_blender(self):
@@ -347,10 +348,185 @@ class Glb(unittest.TestCase):
         self.assertEqual(struct.unpack_from("<6f", data, view["byteOffset"]), (0.0, 1.0, 2.0, 3.0, 4.0, 5.0))
         self.assertEqual((data[:5], document["buffers"][0]["byteLength"]), (b"hello", len(data)))
 
-    def test_panoramas_get_a_camera_to_change(self):
-        document = {"nodes": [{"name": "View"}]}
-        glb.ensure_camera(document, "View")
-        self.assertEqual(document["nodes"][0]["camera"], 0)
+    def test_what_has_a_matrix_is_moved_by_a_node_above_it(self):
+        matrix = [1.0, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+        document = {"scenes": [{"nodes": [0]}], "nodes": [{"name": "A", "children": [1]}, {"name": "B", "matrix": matrix}]}
+        motion = {"translation": [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]}
+        glb.add_motion(document, b"", [0.0, 0.5], {0: motion, 1: motion})
+        self.assertEqual(document["nodes"], [{"name": "A", "children": [2]}, {"name": "B", "matrix": matrix}, {"children": [1]}])
+        targets = [channel["target"]["node"] for channel in document["animations"][0]["channels"]]
+        self.assertEqual(targets, [0, 2])
+        document = {"scenes": [{"nodes": [0]}], "nodes": [{"matrix": matrix}]}
+        glb.add_motion(document, b"", [0.0, 0.5], {0: motion})
+        self.assertEqual(document["scenes"], [{"nodes": [1]}])
+
+    def test_cameras_that_the_exporter_does_not_know_are_there(self):
+        document = {"nodes": [{"name": "View"}], "scenes": [{"nodes": [0]}]}
+        glb.ensure_camera(document, "View", [1.0] * 16)
+        self.assertEqual(document["nodes"], [{"name": "View", "camera": 0}])
+        glb.ensure_camera(document, "Lost", [2.0] * 16)
+        self.assertEqual(document["nodes"][1], {"name": "Lost", "matrix": [2.0] * 16, "camera": 1})
+        self.assertEqual(document["scenes"], [{"nodes": [0, 1]}])
+
+    def test_vertex_colours_stay_where_the_material_has_them(self):
+        primitives = [{"material": 0, "attributes": {"COLOR_0": 0, "POSITION": 1}}, {"material": 1, "attributes": {"COLOR_0": 0}},
+                      {"material": 2, "attributes": {"COLOR_0": 0}}, {"material": 3, "attributes": {"COLOR_0": 0}},
+                      {"attributes": {"COLOR_0": 0}}]
+        document = {"meshes": [{"primitives": primitives}], "bufferViews": [{"buffer": 0, "byteOffset": 8, "byteLength": 32}],
+                    "accessors": [{"bufferView": 0, "componentType": 5123, "normalized": True, "type": "VEC4", "count": 4}]}
+        used = [(False, False), (True, True), (True, False), (False, True)]
+        self.assertEqual(glb.keep_vertex_colors(document, used), [3])
+        self.assertEqual([primitive["attributes"] for primitive in primitives],
+                         [{"POSITION": 1}, {"COLOR_0": 0}, {"COLOR_0": 1}, {}, {}])
+        self.assertEqual(document["accessors"][1], {"bufferView": 1, "componentType": 5123, "normalized": True, "type": "VEC3",
+                                                    "count": 4})
+        self.assertEqual(document["bufferViews"][1], {"buffer": 0, "byteOffset": 8, "byteLength": 32, "byteStride": 8})
+
+
+class VertexColors(unittest.TestCase):
+    def attributes(self, **inputs):
+        return vertex_colors.attributes_of(fake.material("M", fake.principled(**inputs)))
+
+    def test_they_are_found_behind_other_nodes(self):
+        paint = fake.Node("VERTEX_COLOR", layer_name="Paint")
+        mask = fake.Node("ATTRIBUTE", attribute_name="Mask")
+        mix = fake.Node("MIX_RGB", {"Color1": fake.Node("REROUTE", {"Input": paint}), "Color2": (1, 1, 1, 1)})
+        self.assertEqual(self.attributes(Base_Color=mix, Alpha=fake.group(mask)), (["Paint"], ["Mask"]))
+        self.assertEqual(self.attributes(Base_Color=(1, 1, 1, 1), Roughness=paint), ([], []))
+        inside = fake.group(fake.principled(Base_Color=fake.Node("GROUP_INPUT", outputs=("Tint",))), Tint=paint)
+        self.assertEqual(vertex_colors.attributes_of(fake.material("M", inside)), (["Paint"], []))
+        mixed = fake.Node("MIX_SHADER", {"A": fake.Node("BSDF_DIFFUSE", {"Color": paint}), "B": fake.principled()})
+        self.assertEqual(vertex_colors.attributes_of(fake.material("M", mixed)), (["Paint"], []))
+        self.assertEqual(vertex_colors.attributes_of(fake.SimpleNamespace(use_nodes=False, node_tree=None)), ([], []))
+
+    def test_the_exporter_is_given_those_that_a_material_names(self):
+        class Attributes(list):
+            render_color_index = 0
+
+        mesh = fake.SimpleNamespace(color_attributes=Attributes(fake.Block(name) for name in ("One", "Two")), materials=[
+            None, fake.material("M", fake.principled(Base_Color=fake.Node("VERTEX_COLOR", layer_name="Two")))])
+        self.assertEqual(list(vertex_colors.choices([mesh])), [(mesh.color_attributes, "render_color_index", 1)])
+        mesh.materials = [fake.material("M", fake.principled(Base_Color=fake.Node("VERTEX_COLOR", layer_name="")))]
+        self.assertEqual(list(vertex_colors.choices([mesh])), [])
+
+
+class Viewport(unittest.TestCase):
+    def test_viewports_show_what_renders_show(self):
+        new = fake.SimpleNamespace
+        hidden, group = new(hide_viewport=True, modifiers=[]), new(hide_viewport=True)
+        part = new(hide_viewport=False, children=[])
+        modifiers = [new(show_viewport=False, show_render=True, levels=1, render_levels=3),
+                     new(show_viewport=True, show_render=False), new(show_viewport=True, show_render=True, steps=4, render_steps=9),
+                     new(show_viewport=True, show_render=True, resolution=7, viewport_resolution=2)]
+        ring = new(resolution_u=2, resolution_v=2, render_resolution_u=20, render_resolution_v=0, splines=[new(resolution_u=5)])
+        text = new(resolution_u=2, resolution_v=2, render_resolution_u=0, render_resolution_v=6, splines=[])
+        hair = new(display_percentage=10, child_nbr=4, rendered_child_count=90)
+        render = new(simplify_subdivision=0, simplify_subdivision_render=6, simplify_child_particles=0.1,
+                     simplify_child_particles_render=1.0)
+        data = new(objects=[hidden, new(hide_viewport=False, modifiers=modifiers)], collections=[group], curves=[ring, text],
+                   particles=[hair])
+
+        def seen():
+            return (hidden.hide_viewport, group.hide_viewport, part.hide_viewport, [item.show_viewport for item in modifiers],
+                    modifiers[0].levels, modifiers[2].steps, modifiers[3].viewport_resolution, ring.resolution_u,
+                    ring.splines[0].resolution_u, text.resolution_v, hair.display_percentage, hair.child_nbr,
+                    render.simplify_subdivision, render.simplify_child_particles)
+
+        before = seen()
+        layer = new(layer_collection=new(hide_viewport=False, children=[part]))
+        with viewport.changed(viewport.differences(new(render=render), layer, data)):
+            self.assertEqual(seen(), (False, False, False, [True, False, True, True], 3, 9, 7, 2, 20, 6, 100, 90, 6, 1.0))
+        self.assertEqual(seen(), before)
+
+    def test_settings_come_back_where_a_change_fails(self):
+        one = fake.SimpleNamespace(a=1)
+        with self.assertRaises(AttributeError):
+            with viewport.changed([(one, "a", 2), (one, "missing", 3)]):
+                pass
+        self.assertEqual(one.a, 1)
+
+
+class Identity(unittest.TestCase):
+    def test_numbers_come_and_go(self):
+        blocks = [fake.Block("A"), fake.Block("B")]
+        with identity.numbered(blocks):
+            self.assertEqual([block.custom for block in blocks], [{identity.KEY: 0}, {identity.KEY: 1}])
+        self.assertEqual([block.custom for block in blocks], [{}, {}])
+        entries = [{"extras": {identity.KEY: 1}}, {"extras": {identity.KEY: 0, "mine": 2}}, {}]
+        self.assertEqual(identity.take_blocks(entries, blocks), [blocks[1], blocks[0], None])
+        self.assertEqual(entries, [{}, {"extras": {"mine": 2}}, {}])
+
+    def test_linked_data_gives_way_to_what_is_local(self):
+        linked, local, other = fake.Block("Paint", "a.blend"), fake.Block("Paint"), fake.Block("Wood", "a.blend")
+        self.assertEqual(identity.unique_names([linked, local, other, linked]),
+                         {linked: "Paint [a.blend]", local: "Paint", other: "Wood"})
+        again = fake.Block("Paint", "a.blend")
+        self.assertEqual(sorted(identity.unique_names([linked, again, local]).values()),
+                         ["Paint", "Paint [a.blend]", "Paint [a.blend] 2"])
+
+    def test_sources_of_instances_are_not_rendered_where_they_stand(self):
+        source, child = fake.Block("Source"), fake.Block("Child")
+        child.parent = source
+        one = fake.Block("One", is_instancer=True, instance_type="COLLECTION")
+        hidden = fake.Block("Hidden", is_instancer=True, instance_type="COLLECTION")
+        emitter = fake.Block("Emitter", is_instancer=True, instance_type="FACES")
+        source_of_faces = fake.Block("Leaf", parent=emitter)
+        # The source with its child; an instance of both, and one that is not rendered; instances on faces; a bone.
+        nodes = [{"children": [1]}, {}, {"children": [3]}, {"children": [4]}, {}, {"children": [6]}, {}, {"children": [8]}, {},
+                 {"children": [10]}, {}]
+        tree = identity.tree_of(nodes, [source, child, one, source, child, hidden, source, emitter, source_of_faces, child, None])
+        self.assertEqual(tree.instancers, [None, None, None, 2, 2, None, 5, None, 7, None, None])
+        instanced = {(one, source), (one, child), (emitter, source_of_faces)}
+        self.assertEqual(identity.rendered_nodes(tree, {emitter}, instanced), {3, 4, 7, 8})
+        self.assertEqual(identity.rendered_nodes(tree, {emitter, source}, instanced), {0, 3, 4, 7, 8})
+        self.assertEqual(identity.rendered_nodes(tree, {child}, set()), {1, 9, 10})
+
+    def test_instances_in_instances_go_with_the_outermost(self):
+        outer, inner = (fake.Block(name, is_instancer=True, instance_type="COLLECTION") for name in ("Outer", "Inner"))
+        ball = fake.Block("Ball")
+        tree = identity.tree_of([{"children": [1]}, {"children": [2]}, {}], [outer, inner, ball])
+        self.assertEqual((tree.instancers, tree.top_instancer(2)), ([None, 0, 1], 0))
+        self.assertEqual(identity.rendered_nodes(tree, set(), {(outer, ball)}), {2})
+
+
+class Lost(unittest.TestCase):
+    def found(self, *items, surfaces=(), instanced=(), scattered=(), background=None, in_file=(), brought=(), override=None):
+        document = {"nodes": [{} for _ in items]}
+        tree = identity.tree_of(document["nodes"], list(items))
+        scene = fake.SimpleNamespace(objects=items, background_set=background)
+        evaluated = {item: item for item in (*items, *dict(surfaces))}
+        rendered = fake.SimpleNamespace(single=set(items), items=evaluated, instanced=dict(instanced), scattered=scattered)
+        return overlooked.lost(scene, document, tree, rendered, dict(surfaces), in_file, brought, override)
+
+    def surface(self, has_faces=True, materials=()):
+        return fake.SimpleNamespace(has_faces=has_faces, materials=set(materials))
+
+    def test_what_has_nothing_in_the_file_is_told_of_once(self):
+        ball, wire, drop = fake.Block("Ball"), fake.Block("Wire"), fake.Block("Drop", type="META")
+        surfaces = {ball: self.surface(), wire: self.surface(False), drop: self.surface()}
+        self.assertEqual(self.found(ball, wire, drop, surfaces=surfaces), ["Blender's exporter leaves objects out: 'Ball'"])
+        self.assertEqual(self.found(background=fake.Block("Set")), ["background sets are not brought over: 'Set'"])
+
+    def test_instances(self):
+        new = fake.SimpleNamespace
+        place, ball, curve = fake.Block("Place", type="EMPTY"), fake.Block("Ball"), fake.Block("Curve", type="CURVE")
+        surfaces = {ball: self.surface(False), curve: self.surface(False)}
+        there = {(place, ball): 2, (curve, curve): 1}
+        self.assertEqual(self.found(place, surfaces=surfaces, instanced=there), [])
+        surfaces[ball] = self.surface()
+        self.assertEqual(self.found(place, surfaces=surfaces, instanced=there),
+                         ["instances by 'Place' are not brought over: 'Ball'"])
+        self.assertEqual(self.found(place, surfaces=surfaces, instanced=there, brought={(place, ball)}), [])
+        self.assertEqual(self.found(ball, scattered=[new(instancer=ball, source=None), new(instancer=ball, source=None),
+                                                     new(instancer=curve, source=ball)]),
+                         ["instances of meshes that geometry nodes make are not brought over: 'Ball'"])
+
+    def test_materials_of_geometry_nodes(self):
+        grid, paint = fake.Block("Grid", modifiers=[fake.SimpleNamespace(type="NODES")]), fake.Block("P")
+        painted = {grid: self.surface(False, [paint])}
+        self.assertEqual(self.found(grid, surfaces=painted), ["materials that geometry nodes set are not brought over: 'Grid'"])
+        self.assertEqual(self.found(grid, surfaces=painted, in_file=[paint]), [])
+        self.assertEqual(self.found(grid, surfaces=painted, override=paint), [])
 
 
 class Passes(unittest.TestCase):

@@ -130,6 +130,216 @@ def install(file, program, folder):
     bpy.ops.render.render()
 
 
+def artists(folder, program):
+    """Exports a scene with what artists do with objects, and writes what the file has of it."""
+    from etendue.export import export_scene, reason_of
+    from etendue.placement import local_matrix, matrix_in_file
+    from etendue.surfaces import is_closed
+    from mathutils import Matrix
+    folder = Path(folder)
+    scene = scenes.build("world_color", (64, 48))
+    layer = bpy.context.view_layer
+
+    def add(name, data=None, parent=None, keep=False, collection=scene.collection, **properties):
+        item = bpy.data.objects.new(name, data)
+        collection.objects.link(item)
+        for key, value in properties.items():
+            setattr(item, key, value)
+        if parent is not None:
+            item.parent = parent
+            if keep:  # Ctrl-P
+                layer.update()
+                item.matrix_parent_inverse = parent.matrix_world.inverted()
+        return item
+
+    def mesh(name, material=None):
+        bpy.ops.mesh.primitive_cube_add()
+        data = bpy.context.object.data
+        bpy.data.objects.remove(bpy.context.object)
+        data.name = name
+        if material is not None:
+            data.materials.append(material)
+        return data
+
+    def material(name):
+        result = bpy.data.materials.new(name)
+        result.use_nodes = True
+        return result
+
+    def collection(name, excluded=False, **properties):
+        result = bpy.data.collections.new(name)
+        scene.collection.children.link(result)
+        layer.layer_collection.children[name].exclude = excluded
+        for key, value in properties.items():
+            setattr(result, key, value)
+        return result
+
+    def geometry(name):
+        """Geometry nodes with the socket where they begin and the one where they end."""
+        group = bpy.data.node_groups.new(name, "GeometryNodeTree")
+        if hasattr(group, "interface"):
+            for way in ("INPUT", "OUTPUT"):
+                group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+        else:
+            group.inputs.new("NodeSocketGeometry", "Geometry")
+            group.outputs.new("NodeSocketGeometry", "Geometry")
+        return group, group.nodes.new("NodeGroupInput").outputs[0], group.nodes.new("NodeGroupOutput").inputs[0]
+
+    # Linked and local data of the same names.
+    asset, painted = bpy.data.collections.new("Asset"), material("Paint")
+    painted.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.0, 0.0, 1.0, 1.0)
+    add("Box", mesh("Box", painted), collection=asset, pass_index=7)
+    library = str(folder / "library.blend")
+    bpy.data.libraries.write(library, {asset})
+    bpy.data.objects.remove(bpy.data.objects["Box"])
+    bpy.data.collections.remove(asset)
+    bpy.data.materials.remove(painted)
+    with bpy.data.libraries.load(library, link=True) as (_, linked):
+        linked.collections = ["Asset"]
+    add("Here", instance_type="COLLECTION", instance_collection=linked.collections[0])
+    add("Box", mesh("Local", material("Paint")), pass_index=3)
+    # What is parented to a scaled parent, and keeps its place.
+    dolly = add("Dolly", mesh("Dolly"), scale=(2.0, 0.5, 1.0), rotation_euler=(0.0, 0.0, 0.4))
+    lamp = bpy.data.lights.new("Lamp", "AREA")
+    for name, data in (("Kid", mesh("Kid")), ("KidLamp", lamp), ("KidView", bpy.data.cameras.new("KidView"))):
+        add(name, data, dolly, True, rotation_euler=(0.5, 0.6, 0.7), location=(1.0, 2.0, 3.0))
+    scene.camera = bpy.data.objects["KidView"]
+    # The source of instances is excluded, one in it sheared; a lamp of each kind in it.
+    source = collection("Source", True, instance_offset=(0.5, 0.0, 1.0))
+    base = add("Base", mesh("Base"), collection=source, scale=(1.0, 3.0, 1.0))
+    add("Top", mesh("Top"), base, True, source, rotation_euler=(0.3, 0.4, 0.5))
+    for kind in ("POINT", "AREA"):
+        add(kind, bpy.data.lights.new(kind, kind), collection=source)
+    for number in range(2):
+        add(f"Copy{number}", instance_type="COLLECTION", instance_collection=source, location=(4.0 * number, 0.0, 0.0),
+            rotation_euler=(0.0, 0.3, 0.2), scale=(1.0, 1.0, 2.0))
+    # Hidden in viewports, with modifiers.
+    bevel = bpy.data.curves.new("Ring", "CURVE")
+    bevel.dimensions, bevel.bevel_depth, bevel.bevel_resolution = "3D", 0.2, 0
+    spline = bevel.splines.new("NURBS")
+    spline.points.add(3)
+    for point, place in zip(spline.points, ((1, 0), (0, 1), (-1, 0), (0, -1))):
+        point.co = (*place, 0.0, 1.0)
+    spline.use_cyclic_u, spline.resolution_u, bevel.render_resolution_u = True, 2, 8
+    ring = add("Ring", bevel)
+    text = bpy.data.curves.new("Text", "FONT")
+    text.body, text.extrude = "O", 0.1
+    add("Text", text)
+    away = collection("Away", hide_viewport=True)
+    for name, target in (("Monitor", scene.collection), ("Eye", scene.collection), ("Within", away)):
+        item = add(name, mesh(name), collection=target, location=(3.0, 0.0, 0.0))
+        item.modifiers.new("Array", "ARRAY").count = 3
+        item.keyframe_insert("location", frame=0)
+    bpy.data.objects["Monitor"].hide_viewport = True
+    bpy.data.objects["Eye"].hide_set(True)
+    # Vertex colours, one used and one not; a material that geometry nodes set; tiles.
+    for name in ("Used", "Unused"):
+        data = mesh(name, material(name))
+        for color in ("First", "Second"):
+            data.color_attributes.new(color, "FLOAT_COLOR", "CORNER").data[0].color = (0.0, 1.0, 0.0, 0.5) if color == "Second" else (1, 0, 0, 1)
+        add(name, data)
+    tree = bpy.data.materials["Used"].node_tree
+    node = tree.nodes.new("ShaderNodeVertexColor")
+    node.layer_name = "Second"
+    tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    group, start, end = geometry("Set")
+    setter = group.nodes.new("GeometryNodeSetMaterial")
+    setter.inputs["Material"].default_value = material("Set")
+    group.links.new(start, setter.inputs["Geometry"])
+    group.links.new(setter.outputs[0], end)
+    add("Node", mesh("Node", material("Before"))).modifiers.new("Set", "NODES").node_group = group
+    # Instances of geometry nodes: of an object, of an object's mesh, and of a mesh of the nodes' own.
+    pine = add("Pine", mesh("Pine"), collection=collection("Trees", True), location=(7.0, 0.0, 0.0))
+    for name, as_instance in (("Whole", True), ("Mesh", False), ("Own", None)):
+        group, start, end = geometry(name)
+        points = group.nodes.new("GeometryNodeInstanceOnPoints")
+        if as_instance is None:
+            origin = group.nodes.new("GeometryNodeMeshCube").outputs[0]
+        else:
+            info = group.nodes.new("GeometryNodeObjectInfo")
+            info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = pine, as_instance
+            origin = info.outputs["Geometry"]
+        group.links.new(start, points.inputs["Points"])
+        group.links.new(origin, points.inputs["Instance"])
+        group.links.new(points.outputs[0], end)
+        add(name, mesh(name), location=(0.0, 5.0, 0.0), scale=(1.0, 2.0, 1.0)).modifiers.new(name, "NODES").node_group = group
+    tile = bpy.data.images.new("tile", 2, 2)
+    tile.filepath_raw, tile.file_format = str(folder / "tile.1001.png"), "PNG"
+    tile.save()
+    tiled = bpy.data.images.load(str(folder / "tile.1001.png"))
+    tiled.source, tiled.filepath = "TILED", str(folder / "tile.<UDIM>.png")
+    tree = material("Tiled").node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = tiled
+    tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    add("Tiled", mesh("Tiled", bpy.data.materials["Tiled"]))
+    # Everything moves, and nothing is blurred but by vectors.
+    for frame in (0, 2):
+        dolly.location.x = frame
+        dolly.keyframe_insert("location", frame=frame)
+    layer.use_pass_vector = True
+    layer.update()
+
+    scene.render.engine = "ETENDUE"
+    before = [item.hide_viewport for item in bpy.data.objects] + [spline.resolution_u, ring.data.resolution_u, node.image == tiled]
+    found = export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder / "scene", Path(program))
+    after = [item.hide_viewport for item in bpy.data.objects] + [spline.resolution_u, ring.data.resolution_u, node.image == tiled]
+    nodes, parents = found.gltf["nodes"], {}
+    for number, entry in enumerate(nodes):
+        parents |= {child: number for child in entry.get("children", ())}
+
+    def world(number):
+        own = local_matrix(nodes[number])
+        return world(parents[number]) @ own if number in parents else own
+
+    def difference(one, other):
+        return max(abs(a - b) for left, right in zip(one, other) for a, b in zip(left, right))
+
+    numbers = {}
+    for number, entry in enumerate(nodes):
+        numbers.setdefault(entry.get("name"), []).append(number)
+    kid = {name: difference(world(numbers[name][0]), matrix_in_file(bpy.data.objects[name]))
+           for name in ("Dolly", "Kid", "KidLamp", "KidView")}
+    top = {}
+    for name in ("Copy0", "Copy1"):
+        number = next(number for number in numbers["Top"] if numbers[name][0] in (parents.get(number), parents.get(parents.get(number))))
+        top[name] = difference(world(number), world(numbers[name][0]) @ matrix_in_file(bpy.data.objects["Top"]))
+    stands = sorted([round(number, 4) for number in world(number).translation] for number in numbers["Pine"]
+                    if "mesh" in nodes[number])
+    meshes = {name: [nodes[number]["mesh"] for number in those if "mesh" in nodes[number]] for name, those in numbers.items()}
+    accessors = found.gltf["accessors"]
+
+    def primitive(name):
+        return found.gltf["meshes"][meshes[name][0]]["primitives"][0]
+
+    document = json.loads((folder / "scene/render.json").read_text())
+    bpy.ops.mesh.primitive_plane_add()
+    closed = {"plane": is_closed(bpy.context.object.data)}
+    for name in ("Ring", "Text"):
+        item = bpy.data.objects[name].evaluated_get(bpy.context.evaluated_depsgraph_get())
+        closed[name] = is_closed(item.to_mesh())
+        item.to_mesh_clear()
+    materials = [entry["name"] for entry in found.gltf["materials"]]
+    (folder / "answer.json").write_text(json.dumps({
+        "kid": kid, "top": top, "stands": stands, "places": {name: len(those) for name, those in meshes.items()}, "closed": closed,
+        "put back": before == after, "left": [key for item in (*bpy.data.objects, *bpy.data.materials) for key in item.keys()
+                                              if key == "etendue_number"],
+        "triangles": {name: accessors[primitive(name)["indices"]]["count"] // 3 for name in ("Monitor", "Eye", "Within", "Ring")},
+        "colors": {name: accessors[primitive(name)["attributes"]["COLOR_0"]]["type"] if "COLOR_0" in primitive(name)["attributes"]
+                   else None for name in ("Used", "Unused")},
+        "material of": {name: materials[primitive(name)["material"]] for name in numbers if name and meshes[name]},
+        "blue": [entry["name"] for entry in found.gltf["materials"]
+                 if entry.get("pbrMetallicRoughness", {}).get("baseColorFactor", [])[:3] == [0, 0, 1]],
+        "lights": sorted(document["lights"]), "indices": found.indices, "notes": found.notes,
+        "areas": [nodes[number].get("extras", {}).get("etendue", {}).get("type") for number in numbers["AREA"]
+                  if nodes[number].get("extras")],
+        "moves": sorted({nodes[channel["target"]["node"]].get("name", "") for animation in found.gltf["animations"]
+                         for channel in animation["channels"]}), "shutter": document["shutter"],
+        "reason": [reason_of(text) for text in ("Error: it is odd\nLocation: /usr/a.py:111\n",
+                                                "Error: Python: Traceback (most recent call last):\n  File \"a.py\", line 1, in b\n"
+                                                "    c()\n    ^^^\nValueError: odd\nLocation: /usr/a.py:111\n")]}))
+
+
 def units():
     """The tests that need no Blender, with the numpy of Blender."""
     import unittest

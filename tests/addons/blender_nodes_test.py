@@ -180,6 +180,11 @@ class Materials(unittest.TestCase):
         self.assertEqual(self.material(fake.Node("SCRIPT"))[0], {"diffuse": {"albedo": [0.8] * 3}})
         self.assertEqual(self.material(emission(strength=0.0))[0], black | {"emission": {"color": [0.5] * 3, "strength": 0.0}})
 
+    def test_changes_of_the_file_go_by_the_names_that_it_has(self):
+        result = Written()
+        scene_settings.material(fake.material("M", fake.principled(Alpha=0.5)), True, result, name="M [a.blend]")
+        self.assertEqual(result.blended, {"M [a.blend]"})
+
     def test_groups_have_all_factors(self):
         shader = fake.group(fake.principled(Base_Color=fake.Node("GROUP_INPUT", outputs=("Tint",)), Roughness=1.0, Metallic=0.0,
                                             Specular=0.25, Emission=(0, 0, 0, 1), Alpha=0.5), Tint=RED)
@@ -194,6 +199,10 @@ class Materials(unittest.TestCase):
         found, result = self.material(diffuse(fake.texture(fake.image("bark"))))
         self.assertEqual((found, result.textures["M"][0].name, result.notes),
                          ({"base_color": [1.0] * 3, "metallic": 0.0, "roughness": 1.0, "specular": 0.0}, "bark", []))
+        toon, result = self.material(fake.Node("BSDF_TOON", {"Color": fake.texture(fake.image("bark"))}))
+        self.assertEqual((toon, set(result.textures)), (found, {"M"}))
+        painted, result = self.material(diffuse(fake.Node("VERTEX_COLOR", outputs=("Color",))))
+        self.assertEqual((painted, result.notes), (found, []))
         found, result = self.material(diffuse(fake.Node("TEX_NOISE", {"Scale": 5.0}, ("Color",))))
         self.assertEqual((found, len(result.notes)), ({"diffuse": {"albedo": [0.8] * 3}}, 2))
 
@@ -350,6 +359,9 @@ class Document(unittest.TestCase):
 
     def test_images_are_added_once(self):
         picture = fake.image("bark")
+        namesake = fake.image("bark", size=(4, 4))
+        document, _ = self.mend(textures={"A": (picture, False), "B": (namesake, False)})
+        self.assertEqual(len(document["images"]), 2)
         document, binary = self.mend(textures={"A": (picture, True), "B": (picture, False)})
         self.assertEqual(binary, b"12345\0\0\0PNG")
         self.assertEqual(document["bufferViews"], [{"buffer": 0, "byteOffset": 8, "byteLength": 3}])
@@ -387,19 +399,23 @@ class Overlooked(unittest.TestCase):
     def test_volumes_hair_and_lamps(self):
         hair = fake.SimpleNamespace(settings=fake.SimpleNamespace(type="HAIR", render_type="PATH"))
         lamp = fake.light("POINT", cycles=fake.SimpleNamespace(cast_shadow=False))
-        found = self.notes(fake.item("Smoke", None, "VOLUME"), fake.item("Head", None, "MESH", particle_systems=[hair]),
+        found = self.notes(fake.item("Drop", None, "META"), fake.item("Smoke", None, "VOLUME"), fake.item("Head", None, "MESH", particle_systems=[hair]),
                            fake.item("Lamp", lamp, "LIGHT"))
-        self.assertEqual([text.split(": ")[1] for text in found], ["'Smoke'", "'Head'", "'Lamp'"])
+        self.assertEqual([text.split(": ")[1] for text in found], ["'Drop'", "'Smoke'", "'Head'", "'Lamp'"])
 
     def test_shadow_catchers_are_for_paths(self):
         items, said = [fake.item("Floor", None, "MESH", is_shadow_catcher=True), fake.item("Cube", None, "MESH")], []
-        self.assertEqual(list(overlooked.shadow_catchers(items, "path", said.append)), ["Floor"])
+        self.assertEqual(list(overlooked.shadow_catchers(items, "path", said.append)), items[:1])
         self.assertEqual((list(overlooked.shadow_catchers(items, "vcm", said.append)), len(said)), ([], 1))
 
-    def test_collections_hide_from_the_camera(self):
-        hidden = fake.item("A", None, "MESH", indirect_only_get=lambda view_layer: True)
-        self.assertTrue(overlooked.is_indirect_only(hidden, None))
-        self.assertFalse(overlooked.is_indirect_only(fake.item("B", None, "MESH"), None))
+    def test_objects_and_collections_hide_from_the_camera(self):
+        def hidden(kind="MESH", **properties):
+            return overlooked.is_hidden(fake.item("A", None, kind, **properties), None)
+
+        self.assertTrue(hidden(indirect_only_get=lambda view_layer: True))
+        self.assertTrue(hidden(visible_camera=False))
+        self.assertFalse(hidden())
+        self.assertFalse(hidden("LIGHT", visible_camera=False))
 
     def test_panoramas_with_limits_are_said(self):
         def notes(**limits):

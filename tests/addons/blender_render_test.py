@@ -218,6 +218,13 @@ class Renders(InBlender):
             self.assertRegex(self.blender(blend, "-E", "ETENDUE", "-f", "1", code=1), f"Error: {expected}")
         self.assertEqual(self.left_over(), [])
 
+    def test_a_fault_of_the_add_on_is_an_error(self):
+        blend, image = self.simple()
+        said = self.blender(blend, "--python-expr", "import etendue.engine as e; e.export_scene = None", "-E", "ETENDUE", "-f", "1",
+                            code=1)
+        self.assertIn("Error: this is a fault of the add-on, TypeError", said)
+        self.assertFalse(image.exists())
+
     def test_it_is_cancelled_at_once(self):
         blend, image = self.simple("scene.etendue.samples = 1000000")
         process = self.start(blend, "-E", "ETENDUE", "-f", "1")
@@ -231,6 +238,36 @@ class Renders(InBlender):
         self.assertLess(time.monotonic() - began, 5.0)
         self.assertEqual(self.left_over(), [])
         self.assertEqual(processes_with(str(self.temporary)), [])
+
+
+class Export(InBlender):
+    def test_what_artists_do_with_objects_arrives(self):
+        said = self.inside("artists", self.folder, PROGRAM)
+        found = json.loads((self.folder / "answer.json").read_text())
+        self.assertTrue(found["put back"], said)
+        self.assertEqual(found["left"], [])
+        for name, difference in (found["kid"] | found["top"]).items():
+            self.assertLess(difference, 1e-5, name)
+        # Sources are rendered where they are instanced alone; linked and local data are told apart.
+        places = found["places"]
+        self.assertEqual([places[name] for name in ("Base", "Top", "Box", "Box [library.blend]")], [2, 2, 1, 1])
+        self.assertEqual(found["blue"], ["Paint [library.blend]"])
+        self.assertEqual([found["material of"][name] for name in ("Box", "Box [library.blend]", "Node")],
+                         ["Paint", "Paint [library.blend]", "Set"])
+        self.assertEqual([found["indices"]["object_id"][name] for name in ("Box", "Box [library.blend]")], [3, 7])
+        # Three cubes each; eight rows of a ring for each of its four points, with a section of four sides.
+        self.assertEqual(found["triangles"], {"Monitor": 36, "Eye": 36, "Within": 36, "Ring": 256})
+        self.assertEqual(found["colors"], {"Used": "VEC3", "Unused": None})
+        self.assertEqual(found["closed"], {"plane": False, "Ring": True, "Text": True})
+        self.assertEqual(found["lights"], ["KidLamp", "POINT"])
+        self.assertEqual(found["areas"], ["rectangle", "rectangle"])
+        self.assertEqual(found["moves"], ["Dolly"])
+        self.assertAlmostEqual(found["shutter"][1], 0.02 / 24.0)
+        corners = [[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-7.0, -3.0)]  # of Whole and of Mesh
+        self.assertEqual(found["stands"], sorted(2 * corners))
+        self.assertEqual(found["notes"], ["image 'tile.1001.png': of its UDIM tiles, only the first is brought over",
+                                          "instances of meshes that geometry nodes make are not brought over: 'Own'"])
+        self.assertEqual(found["reason"], ["it is odd", "ValueError: odd"])
 
 
 class Rest(InBlender):

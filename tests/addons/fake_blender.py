@@ -105,6 +105,25 @@ def item(name, data, kind, matrix=None, **properties):
     return SimpleNamespace(name=name, data=data, type=kind, matrix_world=matrix or IDENTITY, **properties)
 
 
+class Block:
+    """A data-block: told from others by what it is and not by its name; it has custom properties."""
+
+    def __init__(self, name, library=None, **properties):
+        self.name, self.library, self.custom = name, library, {}
+        self.name_full = f"{name} [{library}]" if library else name
+        self.__dict__.update({"type": "MESH", "parent": None, "is_instancer": False, "instance_type": "NONE", "modifiers": [],
+                              "particle_systems": [], **properties})
+
+    def __setitem__(self, key, value):
+        self.custom[key] = value
+
+    def __delitem__(self, key):
+        del self.custom[key]
+
+    def keys(self):
+        return self.custom.keys()
+
+
 def scene(**settings):
     defaults = {"integrator": "path", "samples": 32, "time": 0.0, "error": 0.0, "adaptive": True, "min_samples": 48, "seed": 3,
                 "max_depth": 12, "light_samples": 1, "heuristic": "balance", "connections": 0, "merge": "sds",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,23 +12,26 @@ from typing import Any
 
 import bpy
 import numpy
-from mathutils import Matrix, Quaternion, Vector
 
-from . import glb, glb_materials, overlooked, passes, scene_settings
+from . import glb, glb_materials, overlooked, passes, scene_settings, vertex_colors
 from .exr import write_exr
+from .identity import Tree, numbered, rendered_nodes, take_blocks, tree_of, unique_names, uses_nodes
 from .images import image_bytes
 from .overlooked import SURFACES
+from .placement import Y_UP, columns, find_motions, has_motion_blur, is_sheared, straighten, world_matrices
 from .program import known_part
+from .rendered import Rendered, rendered_objects
+from .surfaces import materials_of, surfaces_of
+from .viewport import as_rendered, changed
+from .written import Written
 
-Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
-KEYS = 9  # of motion while the shutter is open
 # Options of the exporter and their names in its versions; those that a version lacks are left out.
 OPTIONS: dict[str, Any] = {
     "export_format": "GLB", "export_cameras": True, "export_lights": True, "export_extras": True, "export_yup": True,
     "export_apply": True, "export_materials": "EXPORT", "export_animations": False, "export_current_frame": True,
     "export_skins": False, "export_morph": True, "export_morph_normal": True, "export_texcoords": True, "export_normals": True,
     "export_colors": True, "export_all_vertex_colors": False, "export_draco_mesh_compression_enable": False,
-    "export_gn_mesh": True, "export_unused_images": False, "export_image_format": "AUTO", "use_selection": False,
+    "export_gn_mesh": False, "export_unused_images": False, "export_image_format": "AUTO", "use_selection": False,
     "use_visible": False, "use_renderable": False, "use_active_collection": False, "use_active_scene": True,
     "convert_lighting_mode": "COMPAT", "export_import_convert_lighting_mode": "COMPAT", "will_save_settings": False,
     "check_existing": False, "export_original_specular": False, "export_hierarchy_full_collections": False,
@@ -45,6 +48,7 @@ class Exported:
     arguments: list[str] = field(default_factory=list)
     gltf: dict[str, Any] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    indices: dict[str, dict[str, int]] = field(default_factory=dict)  # pass indices that are not 0, by layer and name
 
 
 def on_main_thread(function: Callable[[], Any], is_stopped: Callable[[], bool]) -> Any:
@@ -72,23 +76,49 @@ def on_main_thread(function: Callable[[], Any], is_stopped: Callable[[], bool]) 
 
 
 @contextmanager
-def modifiers_as_rendered(scene: Any) -> Iterator[None]:
-    """The exporter takes modifiers as viewports show them: while this lasts, these show them as renders do."""
-    kept = []
-    for item in scene.objects:
-        for modifier in item.modifiers:
-            changes = {"show_viewport": modifier.show_render}
-            if hasattr(modifier, "render_levels"):
-                changes["levels"] = modifier.render_levels
-            for name, value in changes.items():
-                if getattr(modifier, name) != value:
-                    kept.append((modifier, name, getattr(modifier, name)))
-                    setattr(modifier, name, value)
+def slots_for_set_materials(view_layer: Any) -> Iterator[None]:
+    """Adds the materials that geometry nodes set to the slots of objects, from which the exporter takes them, while this
+    lasts."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    added = []
     try:
+        for item in view_layer.objects:
+            if item.type != "MESH" or not uses_nodes(item):
+                continue
+            here = list(item.data.materials)
+            there = [material and material.original for material in item.evaluated_get(depsgraph).data.materials]
+            for material in there[len(here):] if there[:len(here)] == here else []:
+                item.data.materials.append(material)
+                added.append(item.data)
         yield
     finally:
-        for modifier, name, value in kept:
-            setattr(modifier, name, value)
+        for mesh in reversed(added):
+            mesh.materials.pop(index=len(mesh.materials) - 1)
+
+
+@contextmanager
+def first_tiles(images: Any, trees: Iterable[Any], notes: list[str]) -> Iterator[None]:
+    """Puts the first tile in the place of images with UDIM tiles, by which the exporter fails, while this lasts."""
+    tiles: dict[Any, Any] = {}
+    try:
+        for image in [image for image in images if image.source == "TILED" and image.users > 0]:
+            number = image.tiles[0].number
+            path = bpy.path.abspath(image.filepath, library=image.library).replace("<UDIM>", str(number))
+            path = path.replace("<UVTILE>", f"u{(number - 1001) % 10 + 1}_v{(number - 1001) // 10 + 1}")
+            try:
+                tiles[image] = images.load(path)
+            except RuntimeError:
+                raise ExportError(f"the image '{image.name}' has UDIM tiles, and the first, {path}, cannot be read") from None
+            tiles[image].colorspace_settings.name = image.colorspace_settings.name
+            tiles[image].alpha_mode = image.alpha_mode
+        users = [node for tree in trees for node in tree.nodes if getattr(node, "image", None) in tiles]
+        notes += [f"image '{image.name}': of its UDIM tiles, only the first is brought over" for image in tiles
+                  if any(node.image == image for node in users)]
+        with changed((node, "image", tiles[node.image]) for node in users):
+            yield
+    finally:
+        for tile in tiles.values():
+            images.remove(tile)
 
 
 @contextmanager
@@ -123,135 +153,67 @@ def exporter() -> Any:
     return bpy.ops.export_scene.gltf
 
 
-def write_gltf(scene: Any, view_layer: Any, path: Path) -> None:
+def reason_of(message: str) -> str:
+    """Returns the line of an operator's error that says what is wrong: no place in Blender's Python."""
+    lines = [line.strip() for line in message.splitlines()]
+    said = [line for line in lines if line and not line.startswith(("Location:", "File ", "Traceback", "Error: Python:"))
+            and not line.endswith("... truncated") and line.strip("^~ ")]
+    return said[-1].removeprefix("Error: ") if said else "the console shows where"
+
+
+def write_gltf(path: Path) -> None:
     operator = exporter()
     known = {item.identifier for item in operator.get_rna_type().properties}
     options = {name: value for name, value in OPTIONS.items() if name in known}
-    with context_of(scene, view_layer), modifiers_as_rendered(scene):
-        scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
-        try:
-            operator("EXEC_DEFAULT", filepath=str(path), **options)
-        except RuntimeError as error:
-            raise ExportError(f"Blender's glTF exporter failed: {str(error).strip().splitlines()[-1]}") from None
+    try:
+        operator("EXEC_DEFAULT", filepath=str(path), **options)
+    except RuntimeError as error:
+        raise ExportError(f"Blender's glTF exporter failed: {reason_of(str(error))}") from None
     if not path.exists():
         raise ExportError("Blender's glTF exporter has written no file")
 
 
-def moments(scene: Any) -> tuple[list[float], list[float]]:
-    """Frames at which motion is looked at, and their seconds from the opening of the shutter."""
-    start, end = scene_settings.shutter(scene.render, scene.etendue.shutter_position)
-    rate = scene.render.fps / scene.render.fps_base
-    steps = [index / (KEYS - 1) for index in range(KEYS)]
-    offsets = [step * (end - start) for step in steps]
-    return [scene.frame_current + start + offset for offset in offsets], [offset / rate for offset in offsets]
+@dataclass
+class Gltf:
+    """Blender's export, with the objects of its nodes and the materials of its materials; and how nodes move."""
+
+    document: dict[str, Any]
+    binary: bytes
+    tree: Tree
+    materials: list[Any]
+    notes: list[str]
+    times: list[float] = field(default_factory=list)
+    motions: dict[int, glb.Motion] = field(default_factory=dict)
 
 
-def world_matrices(document: dict[str, Any]) -> list[Matrix]:
-    """The matrix of each node in the world of the file."""
-    nodes = document.get("nodes", [])
-    result = [Matrix.Identity(4) for _ in nodes]
-    parents = {child: number for number, node in enumerate(nodes) for child in node.get("children", ())}
-
-    def of(number: int) -> Matrix:
-        node = nodes[number]
-        if "matrix" in node:
-            own = Matrix([node["matrix"][row::4] for row in range(4)])
-        else:
-            x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
-            own = Matrix.LocRotScale(Vector(node.get("translation", (0, 0, 0))), Quaternion((w, x, y, z)),
-                                     Vector(node.get("scale", (1, 1, 1))))
-        return of(parents[number]) @ own if number in parents else own
-
-    for number in range(len(nodes)):
-        result[number] = of(number)
+def read_gltf(scene: Any, view_layer: Any, path: Path, moves: bool) -> Gltf:
+    """Has Blender export the scene to the path, and reads that."""
+    objects, materials, notes = list(bpy.data.objects), list(bpy.data.materials), []
+    trees = [material.node_tree for material in materials if material.node_tree is not None] + list(bpy.data.node_groups)
+    with context_of(scene, view_layer), as_rendered(scene, view_layer, bpy.data):
+        with first_tiles(bpy.data.images, trees, notes), changed(vertex_colors.choices(bpy.data.meshes)):
+            scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
+            with slots_for_set_materials(view_layer), numbered(objects), numbered(materials):
+                write_gltf(path)
+        document, binary = glb.read_glb(path)
+        nodes = document.get("nodes", [])
+        tree = tree_of(nodes, take_blocks(nodes, objects))
+        result = Gltf(document, binary, tree, take_blocks(document.get("materials", []), materials), notes)
+        straighten(document, tree)
+        if moves:
+            result.times, result.motions = find_motions(scene, document, tree)
     return result
 
 
-def find_motions(scene: Any, view_layer: Any, document: dict[str, Any]) -> tuple[list[float], dict[int, glb.Motion]]:
-    """Finds how nodes move while the shutter is open, by the places that Blender gives their objects at moments in
-    between, whatever moves them. Meshes that change their form do not move."""
-    nodes = document.get("nodes", [])
-    names: dict[str, list[int]] = {}
-    for number, node in enumerate(nodes):
-        names.setdefault(node.get("name", ""), []).append(number)
-    single = {name: numbers[0] for name, numbers in names.items() if len(numbers) == 1 and name in scene.objects}
-    now = world_matrices(document)
-    parents = {child: number for number, node in enumerate(nodes) for child in node.get("children", ())}
-    frames, seconds = moments(scene)
-    frame, subframe = scene.frame_current, scene.frame_subframe
-    worlds: list[dict[str, Matrix]] = []
-    with context_of(scene, view_layer):
-        try:
-            rest = {name: scene.objects[name].matrix_world.copy() for name in single}
-            for moment in frames:
-                whole = int(numpy.floor(moment))
-                scene.frame_set(whole, subframe=moment - whole)
-                worlds.append({name: scene.objects[name].matrix_world.copy() for name in single})
-        finally:
-            scene.frame_set(frame, subframe=subframe)
-    turned = Y_UP.inverted()
-    moved: list[dict[int, Matrix]] = [
-        {single[name]: Y_UP @ world[name] @ rest[name].inverted_safe() @ turned @ now[single[name]] for name in single}
-        for world in worlds]
-    motions: dict[int, glb.Motion] = {}
-    for number in single.values():
-        parent = parents.get(number)
-        # A node whose parent is a bone or an instance goes with it.
-        if parent is not None and parent not in moved[0]:
-            continue
-        parts = [(at[parent].inverted_safe() @ at[number] if parent is not None else at[number]).decompose() for at in moved]
-        for previous, part in zip(parts, parts[1:]):
-            part[1].make_compatible(previous[1])
-        motion: glb.Motion = {
-            "translation": [tuple(place) for place, _, _ in parts],
-            "rotation": [(turn.x, turn.y, turn.z, turn.w) for _, turn, _ in parts],
-            "scale": [tuple(scale) for _, _, scale in parts]}
-        motion = {path: values for path, values in motion.items()
-                  if any(abs(a - b) > 1e-6 for value in values for a, b in zip(value, values[0]))}
-        if motion:
-            motions[number] = motion
-    return seconds, motions
-
-
-def rendered_objects(depsgraph: Any) -> tuple[dict[str, Any], set[str]]:
-    """The objects that are rendered, by name, those of instances too; and the names of those that stand in the view layer
-    themselves."""
-    items, single = {}, set()
-    for instance in depsgraph.object_instances:
-        if not instance.show_self:
-            continue
-        item = instance.instance_object if instance.is_instance else instance.object
-        if item is None:
-            continue
-        items[item.name] = item.original.evaluated_get(depsgraph)
-        if not instance.is_instance:
-            single.add(item.name)
-    return items, single
-
-
-def is_closed(mesh: Any) -> bool:
-    """Returns whether every edge is between two faces."""
-    if len(mesh.polygons) == 0:
-        return False
-    edges = numpy.empty(len(mesh.loops), numpy.int32)
-    mesh.loops.foreach_get("edge_index", edges)
-    return bool(numpy.all(numpy.bincount(edges, minlength=len(mesh.edges)) == 2))
-
-
-def materials_of(items: dict[str, Any]) -> list[tuple[Any, bool]]:
-    """Each material that is used, with whether all meshes that have it are closed."""
-    found: dict[str, tuple[Any, bool]] = {}
-    for item in items.values():
-        if item.type not in SURFACES:
-            continue
-        used = [slot.material for slot in item.material_slots if slot.material is not None]
-        if not used:
-            continue
-        closed = item.type == "MESH" and is_closed(item.data)
-        for material in used:
-            before = found.get(material.name, (material, True))
-            found[material.name] = (material, before[1] and closed)
-    return list(found.values())
+def give_names(gltf: Gltf, objects: Iterable[Any], materials: Iterable[Any]) -> dict[Any, str]:
+    """Gives nodes and materials names by which they are told apart, and returns those, and those of these data-blocks."""
+    names = {}
+    for key, here, others in (("nodes", gltf.tree.objects, objects), ("materials", gltf.materials, materials)):
+        names |= unique_names([item for item in (*here, *others) if item is not None])
+        for entry, item in zip(gltf.document.get(key, []), here):
+            if item is not None:
+                entry["name"] = names[item]
+    return names
 
 
 def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> list[str]:
@@ -276,15 +238,110 @@ def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> 
     return []
 
 
-def add_entries(document: dict[str, Any], origins: dict[str, str], change: dict[str, Any]) -> None:
-    """The entries of materials that are copies of others with a change."""
-    entries = document.setdefault("materials", {}) if origins else {}
-    for name, origin in origins.items():
-        entries[name] = {**entries.get(origin, {}), **change}
-
-
 def bytes_of(image: Any) -> tuple[bytes, str]:
     return image_bytes(image, Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None)
+
+
+def change_materials(document: dict[str, Any], written: Written, names: Collection[str], suffix: str,
+                     change: dict[str, Any]) -> dict[str, str]:
+    """Gives the meshes of these objects materials of their own, whose entries in render.json have a change. Returns which
+    material each is a copy of."""
+    origins = glb.give_own_materials(document, names, suffix)
+    entries = written.document.setdefault("materials", {}) if origins else {}
+    for name, origin in origins.items():
+        entries[name] = {**entries.get(origin, {}), **change}
+    return origins
+
+
+def own_materials(document: dict[str, Any], written: Written, rendered: Rendered, view_layer: Any, integrator: str,
+                  names: dict[Any, str]) -> dict[str, str]:
+    """Gives materials of their own to what catches shadows and to what the camera is not to see. Returns which material
+    each is a copy of."""
+    items = rendered.items.values()
+    catchers = {names[item.original] for item in overlooked.shadow_catchers(items, integrator, written.note)}
+    hidden = {names[item.original] for item in items if overlooked.is_hidden(item, view_layer)}
+    return (change_materials(document, written, catchers, "that catches shadows", {"shadow_catcher": True})
+            | change_materials(document, written, hidden, "hidden from the camera", {"visible_to_camera": False}))
+
+
+def move_instanced_areas(gltf: Gltf, lights: dict[str, Any], rendered: Rendered, shown: Collection[int],
+                         names: dict[Any, str]) -> None:
+    """Takes area lamps that stand in instances out of render.json, where each stands in one place, to their nodes."""
+    for item in {item for _, item in rendered.instanced if item.type == "LIGHT" and item.data.type == "AREA"}:
+        entry = lights.pop(names[item], None)
+        if entry is not None:
+            glb.add_extras(gltf.document, {number: entry for number in shown if gltf.tree.objects[number] == item})
+
+
+def scatter(document: dict[str, Any], tree: Tree, rendered: Rendered, meshes: dict[Any, int],
+            names: dict[Any, str]) -> set[tuple[Any, Any]]:
+    """Adds nodes for instances of geometry nodes, which the exporter drops, below the nodes of their objects. Returns the
+    pairs of an instancer and what it instances."""
+    nodes = document["nodes"]
+    places = {item: number for number, item in tree.own().items()}
+    worlds = world_matrices(document, tree)
+    added = set()
+    for instance in rendered.scattered:
+        above = places.get(instance.instancer)
+        if instance.source not in meshes or above is None:
+            continue
+        local = worlds[above].inverted_safe() @ Y_UP @ instance.matrix @ Y_UP.inverted()
+        nodes.append({"name": names[instance.source], "mesh": meshes[instance.source], "matrix": columns(local)})
+        nodes[above].setdefault("children", []).append(len(nodes) - 1)
+        added.add((instance.instancer, instance.source))
+    return added
+
+
+def mend_nodes(gltf: Gltf, rendered: Rendered, camera: Any, render: Any, lights: dict[str, Any],
+               names: dict[Any, str]) -> set[tuple[Any, Any]]:
+    """Makes the nodes those that are rendered, with their cameras and lamps. Returns the pairs of an instancer and what it
+    instances."""
+    document, tree, name = gltf.document, gltf.tree, names[camera.original]
+    glb.ensure_camera(document, name, columns(Y_UP @ camera.matrix_world))
+    glb.give_nodes_their_own(document)
+    if camera.data.type == "ORTHO":
+        # The exporter takes the scale to be that of the longer side, whatever the sensor fits.
+        glb.set_orthographic(document, name, scene_settings.orthographic_halves(camera.data, *scene_settings.view_size(render)))
+    shown = rendered_nodes(tree, rendered.single, rendered.instanced)
+    meshes = {item: document["nodes"][number]["mesh"] for number, item in enumerate(tree.objects)
+              if item is not None and "mesh" in document["nodes"][number]}
+    glb.leave_out(document, shown)
+    glb.set_spots(document, {names[original]: scene_settings.spot_cones(item.data) for original, item in rendered.items.items()
+                             if item.type == "LIGHT" and item.data.type == "SPOT"})
+    move_instanced_areas(gltf, lights, rendered, shown, names)
+    return tree.pairs(shown) | scatter(document, tree, rendered, meshes, names)
+
+
+def mend_surfaces(gltf: Gltf, written: Written, override: Any, names: dict[Any, str]) -> None:
+    """Gives surfaces the materials and the vertex colours that they are rendered with."""
+    document = gltf.document
+    if override is not None:
+        glb_materials.override(document, names[override])
+        if len(document["materials"]) > len(gltf.materials):
+            gltf.materials.append(override)
+    uses = [tuple(map(bool, vertex_colors.attributes_of(item))) if item is not None else (False, False) for item in gltf.materials]
+    for number in glb.keep_vertex_colors(document, uses):
+        written.note(f"material '{document['materials'][number]['name']}': the alpha of vertex colours is brought over with their "
+                     "colour alone")
+    glb.give_all_materials(document)
+
+
+def take_unknown(given: dict[str, Any], document: dict[str, Any]) -> None:
+    """Takes the entries out of render.json whose names the file has not, which are errors."""
+    for key, owner in (("materials", "materials"), ("lights", "nodes")):
+        in_file = {entry.get("name") for entry in document.get(owner, [])}
+        for name in set(given.get(key, {})) - in_file:
+            del given[key][name]
+
+
+def pass_indices(rendered: Rendered, materials: Iterable[Any], origins: dict[str, str],
+                 names: dict[Any, str]) -> dict[str, dict[str, int]]:
+    """The pass indices that are not 0, by layer and name; copies of materials have those of their origins."""
+    result = {layer: {names[item]: item.pass_index for item in blocks if item.pass_index != 0}
+              for layer, blocks in (("object_id", rendered.items), ("material_id", materials))}
+    own = result["material_id"]
+    own |= {name: own[origin] for name, origin in origins.items() if origin in own}
+    return result
 
 
 def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, program: Path,
@@ -293,62 +350,36 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     what is rendered."""
     if scene.camera is None:
         raise ExportError("the scene has no camera")
+    if scene.camera.type != "CAMERA":
+        raise ExportError(f"'{scene.camera.name}', by which the scene is seen, is no camera")
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "scene.glb"
-    moves = scene.render.use_motion_blur and scene.render.motion_blur_shutter > 0.0
-    times: list[float] = []
-
-    def operators() -> tuple[list[float], dict[int, glb.Motion]]:
-        write_gltf(scene, view_layer, file)
-        return find_motions(scene, view_layer, glb.read_glb(file)[0]) if moves else ([], {})
-
-    times, motions = on_main_thread(operators, is_stopped)
-    items, single = rendered_objects(depsgraph)
-    evaluated = depsgraph.scene_eval
-    camera = evaluated.camera
-    materials = materials_of(items)
-    override = view_layer.material_override
-    if override is not None:
-        materials = [(override, all(closed for _, closed in materials))]
-    lamps = [item for name, item in items.items() if item.type == "LIGHT" and name in single]
-    written = scene_settings.write(evaluated, lamps, materials,
+    moves = has_motion_blur(scene) or view_layer.use_pass_vector
+    gltf = on_main_thread(lambda: read_gltf(scene, view_layer, file, moves), is_stopped)
+    evaluated, override, document = depsgraph.scene_eval, view_layer.material_override, gltf.document
+    rendered = rendered_objects(depsgraph, bpy.data.objects)
+    surfaces = surfaces_of(rendered.items)
+    materials = materials_of(rendered.items, surfaces, override)
+    names = give_names(gltf, [*rendered.items, evaluated.camera.original], [item for item, _ in materials])
+    written = scene_settings.write(evaluated, rendered.items.values(), materials,
                                    passes.sources(passes.wanted(view_layer), scene.etendue.denoise),
-                                   (times[0], times[-1]) if motions else None, camera, bpy.app.version, view_layer)
-    document, binary = glb.read_glb(file)
-    glb.ensure_camera(document, camera.name)
-    glb.give_nodes_their_own(document)
-    if camera.data.type == "ORTHO":
-        # The exporter takes the scale to be that of the longer side, whatever the sensor fits.
-        glb.set_orthographic(document, camera.name,
-                             scene_settings.orthographic_halves(camera.data, *scene_settings.view_size(evaluated.render)))
-    glb.leave_out(document, items)
-    glb.set_spots(document, {item.name: scene_settings.spot_cones(item.data) for item in items.values()
-                             if item.type == "LIGHT" and item.data.type == "SPOT"})
-    glb.give_all_materials(document)
-    if override is not None:
-        glb_materials.override(document, override.name)
-    binary = glb_materials.mend(document, binary, written, bytes_of)
-    catchers = set(overlooked.shadow_catchers(items.values(), scene.etendue.integrator, written.note))
-    add_entries(written.document, glb.give_own_materials(document, catchers, "that catches shadows"), {"shadow_catcher": True})
-    hidden = {name for name, item in items.items() if item.type in SURFACES
-              and (not getattr(item, "visible_camera", True) or overlooked.is_indirect_only(item, view_layer))}
-    add_entries(written.document, glb.give_own_materials(document, hidden, "hidden from the camera"), {"visible_to_camera": False})
-    motions = {number: motion for number, motion in motions.items()
-               if overlooked.moves_blurred(items.get(document["nodes"][number].get("name")))}
-    binary = glb.add_motion(document, binary, times, motions)
-    glb.write_glb(file, document, binary)
-    result = Exported(folder, gltf=document, notes=written.notes + overlooked.notes(items.values(), view_layer))
-    result.notes += [f"lamp '{item.name}': area lamps in instances are not brought over" for name, item in items.items()
-                     if item.type == "LIGHT" and item.data.type == "AREA" and name not in single]
+                                   (gltf.times[0], gltf.times[-1]) if gltf.motions else None, evaluated.camera, bpy.app.version,
+                                   view_layer, lambda item: names[item.original])
+    written.notes += gltf.notes
+    if is_sheared(evaluated.camera.matrix_world):
+        written.note(f"camera '{scene.camera.name}': that it is sheared by what it hangs below is not brought over")
+    brought = mend_nodes(gltf, rendered, evaluated.camera, evaluated.render, written.document.get("lights", {}), names)
+    written.notes += overlooked.lost(scene, gltf.document, gltf.tree, rendered, surfaces, gltf.materials, brought, override)
+    written.notes += overlooked.notes(rendered.items.values(), view_layer)
+    mend_surfaces(gltf, written, override, names)
+    binary = glb_materials.mend(document, gltf.binary, written, bytes_of)
+    origins = own_materials(document, written, rendered, view_layer, scene.etendue.integrator, names)
+    glb.write_glb(file, document, glb.add_motion(document, binary, gltf.times, gltf.motions))
+    result = Exported(folder, gltf=document, notes=written.notes,
+                      indices=pass_indices(rendered, [item for item, _ in materials], origins, names))
     if written.world_image is not None:
         result.arguments += place_world_image(written.world_image, folder, written.document["environment"])
-    # Names that the file has not are errors.
-    in_file = {material.get("name") for material in document.get("materials", [])}
-    for name in set(written.document.get("materials", {})) - in_file:
-        del written.document["materials"][name]
-    nodes = {node.get("name") for node in document.get("nodes", [])}
-    for name in set(written.document.get("lights", {})) - nodes:
-        del written.document["lights"][name]
+    take_unknown(written.document, document)
     known, dropped = known_part(program, written.document)
     result.notes += [f"this version of the program does not know {name}, which is left out" for name in dropped]
     (folder / "render.json").write_text(json.dumps(known, indent=1), encoding="utf-8")

@@ -6,13 +6,14 @@ from __future__ import annotations
 import copy
 import json
 import struct
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 FLOAT, LAMPS, SPECULAR = 5126, "KHR_lights_punctual", "KHR_materials_specular"
 UNNAMED = "without a material"
+SIZES = {5121: 1, 5123: 2, FLOAT: 4}  # bytes of a number, by its type
 
 Document = dict[str, Any]
 # A motion holds translations, rotations (x, y, z, w) and scales of a node, one for each moment.
@@ -69,23 +70,50 @@ def give_nodes_their_own(document: Document) -> None:
         lamp["intensity"] = max(lamp.get("intensity", 1.0), 0.0)  # render.json has the strength
 
 
-def leave_out(document: Document, shown: Collection[str]) -> list[str]:
-    """Takes meshes and lamps from the nodes whose objects are not to be rendered, and returns their names; what hangs
-    below them stays."""
+def leave_out(document: Document, shown: Collection[int]) -> list[str]:
+    """Takes meshes and lamps from the nodes that are not to be rendered, and returns their names; what hangs below them
+    stays."""
     left_out = []
-    for node in document.get("nodes", []):
-        name = node.get("name", "")
-        if name in shown:
+    for number, node in enumerate(document.get("nodes", [])):
+        if number in shown:
             continue
         extensions = node.get("extensions", {})
         if "mesh" in node or LAMPS in extensions:
-            left_out.append(name)
+            left_out.append(node.get("name", ""))
         node.pop("mesh", None)
         node.pop("skin", None)
         extensions.pop(LAMPS, None)
         if not extensions:
             node.pop("extensions", None)
     return left_out
+
+
+def keep_vertex_colors(document: Document, used: Sequence[tuple[bool, bool]]) -> list[int]:
+    """Takes vertex colours from what has a material that does not use them. `used` says of each material whether it uses
+    their colour and their alpha. Returns the materials that use the alpha alone, which are left without it."""
+    alone: set[int] = set()
+    opaque: dict[int, int] = {}
+    accessors, views = document.get("accessors", []), document.get("bufferViews", [])
+    for primitive in (primitive for mesh in document.get("meshes", []) for primitive in mesh["primitives"]):
+        number = primitive["attributes"].get("COLOR_0")
+        if number is None:
+            continue
+        material = primitive.get("material")
+        color, alpha = used[material] if material is not None else (False, False)
+        if not color:
+            del primitive["attributes"]["COLOR_0"]
+            alone |= {material} if alpha else set()
+        elif not alpha and accessors[number]["type"] == "VEC4":
+            if number not in opaque:
+                old = accessors[number]
+                view = {**views[old["bufferView"]], "byteStride": 4 * SIZES[old["componentType"]]}
+                views.append(view)
+                accessors.append({**old, "type": "VEC3", "bufferView": len(views) - 1})
+                for bound in {"min", "max"} & set(old):
+                    accessors[-1][bound] = old[bound][:3]
+                opaque[number] = len(accessors) - 1
+            primitive["attributes"]["COLOR_0"] = opaque[number]
+    return sorted(alone)
 
 
 def set_spots(document: Document, cones: Mapping[str, tuple[float, float]]) -> None:
@@ -113,18 +141,26 @@ def give_all_materials(document: Document) -> None:
         primitive["material"] = len(materials) - 1
 
 
-def add_extras(document: Document, extras: Mapping[str, Mapping[str, Any]]) -> None:
-    """Adds to the `etendue` of the extras of nodes, by their names."""
-    for node in document.get("nodes", []):
-        given = extras.get(node.get("name", ""))
-        if given:
-            node.setdefault("extras", {})
-            node["extras"]["etendue"] = {**node["extras"].get("etendue", {}), **given}
+def add_extras(document: Document, extras: Mapping[int, Mapping[str, Any]]) -> None:
+    """Adds to the `etendue` of the extras of nodes, by their numbers."""
+    for number, given in extras.items():
+        own = document["nodes"][number].setdefault("extras", {})
+        own["etendue"] = {**own.get("etendue", {}), **given}
+
+
+def put_above(document: Document, number: int) -> int:
+    """Puts a new node between a node and what it hangs below, and returns its number."""
+    new = len(document["nodes"])
+    for owner, key in [(node, "children") for node in document["nodes"]] + [(scene, "nodes") for scene in document["scenes"]]:
+        if number in owner.get(key, ()):
+            owner[key] = [new if child == number else child for child in owner[key]]
+    document["nodes"].append({"children": [number]})
+    return new
 
 
 def add_motion(document: Document, binary: bytes, times: list[float], motions: Mapping[int, Motion]) -> bytes:
-    """Adds an animation that moves the nodes with these numbers through these moments, in place of all others. Returns
-    the binary part with its numbers."""
+    """Adds an animation that moves the nodes with these numbers through these moments, in place of all others. A node with
+    a matrix, which must not be animated, gets a node above it that moves. Returns the binary part with its numbers."""
     document.pop("animations", None)
     if not motions:
         return binary
@@ -141,9 +177,8 @@ def add_motion(document: Document, binary: bytes, times: list[float], motions: M
     clock = accessor([(time,) for time in times], "SCALAR", min=[min(times)], max=[max(times)])
     samplers, channels = [], []
     for number, motion in motions.items():
-        node = document["nodes"][number]
-        if "matrix" in node:
-            del node["matrix"]
+        if "matrix" in document["nodes"][number]:
+            number = put_above(document, number)
         for path, values in motion.items():
             samplers.append({"input": clock, "output": accessor(values, "VEC4" if path == "rotation" else "VEC3"),
                              "interpolation": "LINEAR"})
@@ -192,11 +227,16 @@ def set_orthographic(document: Document, name: str, halves: tuple[float, float])
             document["cameras"][node["camera"]]["orthographic"] |= {"xmag": halves[0], "ymag": halves[1]}
 
 
-def ensure_camera(document: Document, name: str) -> None:
-    """Gives the node of this name a camera where the exporter knows none of its kind: a panorama."""
-    for node in document.get("nodes", []):
-        if node.get("name") == name and "camera" not in node:
-            cameras = document.setdefault("cameras", [])
-            cameras.append({"name": name, "type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}})
-            node["camera"] = len(cameras) - 1
-            return
+def ensure_camera(document: Document, name: str, matrix: Sequence[float]) -> None:
+    """Gives the node of this name a camera where the exporter knows none of its kind: a panorama. A node that it has left
+    out, below what makes instances, comes to stand at the matrix, column by column."""
+    nodes = document.setdefault("nodes", [])
+    node = next((node for node in nodes if node.get("name") == name), None)
+    if node is None:
+        node = {"name": name, "matrix": list(matrix)}
+        nodes.append(node)
+        document["scenes"][document.get("scene", 0)].setdefault("nodes", []).append(len(nodes) - 1)
+    if "camera" not in node:
+        cameras = document.setdefault("cameras", [])
+        cameras.append({"name": name, "type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}})
+        node["camera"] = len(cameras) - 1

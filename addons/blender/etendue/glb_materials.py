@@ -78,22 +78,25 @@ def blend(document: Document, names: Collection[str], alphas: Mapping[str, float
 def add_textures(document: Document, binary: bytes, textures: Mapping[str, tuple[Any, bool]],
                  image_bytes: Callable[[Any], tuple[bytes, str]]) -> bytes:
     """Gives materials images as their base colours, where the exporter has none, or where their alpha counts."""
-    data, numbers = bytearray(binary), {}
+    data = bytearray(binary)
+    numbers: list[tuple[Any, int]] = []  # images, which may have equal names, and their textures
     for name, (image, with_alpha) in textures.items():
         for material in named(document, {name}):
             surface = material.setdefault("pbrMetallicRoughness", {})
             if "baseColorTexture" in surface and not with_alpha:
                 continue
-            if image.name not in numbers:
+            number = next((number for other, number in numbers if other == image), None)
+            if number is None:
                 content, kind = image_bytes(image)
                 if not content:
                     continue
                 data += b"\0" * (-len(data) % 4)
                 view = {"buffer": 0, "byteOffset": len(data), "byteLength": len(content)}
                 data += content
-                numbers[image.name] = add(document, "textures", {"source": add(document, "images", {
+                number = add(document, "textures", {"source": add(document, "images", {
                     "name": image.name, "mimeType": kind, "bufferView": add(document, "bufferViews", view)})})
-            surface["baseColorTexture"] = {**copy.deepcopy(surface.get("baseColorTexture", {})), "index": numbers[image.name]}
+                numbers.append((image, number))
+            surface["baseColorTexture"] = {**copy.deepcopy(surface.get("baseColorTexture", {})), "index": number}
             if with_alpha:
                 material["alphaMode"] = "BLEND"
                 material.pop("alphaCutoff", None)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import textures, volumes
-from .nodes import Seen, active_output, behind
+from .nodes import VERTICES, Seen, active_output, behind
 from .written import Document, Written
 
 OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.2, 0.3
@@ -27,14 +27,15 @@ def matte(albedo: list[float]) -> Document:
     return {"diffuse": {"albedo": albedo}}
 
 
-def material(material: Any, closed: bool, written: Written, whole: bool = False) -> Document:
+def material(material: Any, closed: bool, written: Written, whole: bool = False, name: str = "") -> Document:
     """The entry of `materials`: what the exporter drops of the Principled BSDF, and what can be read of other shaders.
-    `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material."""
+    `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material; `name`: that in the
+    file, where it is another."""
     if not material.use_nodes or material.node_tree is None:
         return matte(clamped(list(material.diffuse_color)[:3]))
     output = active_output(material.node_tree, "OUTPUT_MATERIAL")
     # The exporter takes the active output, be it Eevee's.
-    reader = Reader(material, closed, written, whole or output is not None and not output.is_active_output)
+    reader = Reader(name or material.name, closed, written, whole or output is not None and not output.is_active_output)
     if output is None:
         return reader.nothing("it has no output")
     ends = Seen(output)
@@ -43,7 +44,7 @@ def material(material: Any, closed: bool, written: Written, whole: bool = False)
     shader, volume = ends.source("Surface"), ends.source("Volume")
     if shader is not None:
         if getattr(material, "blend_method", "") == "CLIP":
-            written.blended.add(material.name)
+            written.blended.add(reader.name)
         result = reader.surface(shader)
         reader.notes_of_textures(shader)
         return reader.filled(result, volume) if volume is not None else result
@@ -52,15 +53,15 @@ def material(material: Any, closed: bool, written: Written, whole: bool = False)
 
 @dataclass
 class Reader:
-    """Reads the shaders of one material."""
+    """Reads the shaders of one material, which has this name in the file."""
 
-    material: Any
+    name: str
     closed: bool
     written: Written
     whole: bool
 
     def note(self, text: str) -> None:
-        self.written.note(f"material '{self.material.name}': {text}")
+        self.written.note(f"material '{self.name}': {text}")
 
     def nothing(self, why: str) -> Document:
         self.note(f"{why}, and is black as in Cycles")
@@ -82,9 +83,8 @@ class Reader:
                  "SUBSURFACE_SCATTERING": self.wax, **{kind: self.glossy for kind in GLOSSY}}
         if shader.type in known:
             return known[shader.type](shader)
-        albedo = self.color(shader, "Color") if shader.socket("Color") is not None else GREY
         self.note(f"its node '{shader.name}' is not brought over, and shown as a matte surface")
-        return matte(albedo)
+        return self.lambert(shader) if shader.socket("Color") is not None else matte(GREY)
 
     def mix(self, shader: Seen) -> Document:
         """One of two shaders: with transparency as coverage, with emission as its share of it, else the heavier one."""
@@ -105,7 +105,7 @@ class Reader:
 
     def covered(self, mix: Seen, share: float | None, sides: list[Seen | None], clear: int) -> Document:
         """A shader that is mixed with transparency: a constant, or the alpha of its own image."""
-        rest, name = sides[1 - clear], self.material.name
+        rest = sides[1 - clear]
         result = self.surface(rest)
         if share is not None:
             self.cover(share if clear == 0 else 1.0 - share)
@@ -134,21 +134,28 @@ class Reader:
     # --- shaders of one lobe
 
     def color(self, shader: Seen, *names: str) -> list[float]:
-        """The constant colour of an input; white if the GLB gets the image that is linked to it."""
+        """The constant colour of an input; white if the GLB gets the image that is linked to it, or has vertex colours."""
         color = shader.value(*names)
         if color is not None:
             return clamped(color)
         texture = behind(shader.source(*names), "TEX_IMAGE")
-        if texture is not None and self.fetch(texture):
+        if (texture is not None and self.fetch(texture)) or behind(shader.source(*names), *VERTICES) is not None:
             return WHITE
         self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
         return GREY
+
+    def lambert(self, shader: Seen) -> Document:
+        """A matte surface; where the GLB has its colour, one of glTF's factors, by which that is multiplied."""
+        color = self.color(shader, "Color")
+        if shader.value("Color") is None and color is WHITE:
+            return {"base_color": WHITE, "metallic": 0.0, "roughness": 1.0, "specular": 0.0}
+        return matte(color)
 
     def fetch(self, texture: Seen, with_alpha: bool = False) -> bool:
         """Has the GLB get the image, and returns whether there is one."""
         if texture.node.image is None:
             return False
-        self.written.textures[self.material.name] = (texture.node.image, with_alpha)
+        self.written.textures[self.name] = (texture.node.image, with_alpha)
         return True
 
     def number(self, shader: Seen, name: str, default: float) -> float:
@@ -169,10 +176,10 @@ class Reader:
 
     def diffuse(self, shader: Seen) -> Document:
         self.flat(shader)
-        color, rough = self.color(shader, "Color"), self.roughness(shader, 0.0)
-        if shader.value("Color") is None and self.material.name in self.written.textures:
-            return {"base_color": WHITE, "metallic": 0.0, "roughness": 1.0, "specular": 0.0}
-        return {"diffuse": {"albedo": color, **({"roughness": rough} if rough > 0.0 else {})}}
+        result, rough = self.lambert(shader), self.roughness(shader, 0.0)
+        if "diffuse" in result and rough > 0.0:
+            result["diffuse"]["roughness"] = rough
+        return result
 
     def glossy(self, shader: Seen) -> Document:
         self.flat(shader)
@@ -199,8 +206,8 @@ class Reader:
 
     def cover(self, alpha: float) -> None:
         """Multiplies the alpha that the exporter has."""
-        self.written.blended.add(self.material.name)
-        self.written.alphas[self.material.name] = self.written.alphas.get(self.material.name, 1.0) * min(max(alpha, 0.0), 1.0)
+        self.written.blended.add(self.name)
+        self.written.alphas[self.name] = self.written.alphas.get(self.name, 1.0) * min(max(alpha, 0.0), 1.0)
 
     def transparent(self, shader: Seen) -> Document:
         color = clamped(shader.value("Color") or self.unread(shader, "Color"))
@@ -244,7 +251,7 @@ class Reader:
     def principled(self, shader: Seen) -> Document:
         alpha = shader.value("Alpha", default=1.0)
         if alpha is None or alpha < 1.0:
-            self.written.blended.add(self.material.name)
+            self.written.blended.add(self.name)
         self.check_normals(shader)
         self.cut_at_one(shader.source(*EMISSION))
         wax = self.subsurface(shader)
@@ -306,7 +313,7 @@ class Reader:
             return result
         if color is not None and shader.is_linked(*COLOR):
             result["base_color"] = clamped(color)
-        elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", "VERTEX_COLOR", "ATTRIBUTE") is None:
+        elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", *VERTICES) is None:
             self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
             result["base_color"] = GREY
         # The exporter has white light where it cannot read the colour.
@@ -320,7 +327,7 @@ class Reader:
         for name in ("Normal", "Clearcoat Normal", "Coat Normal"):
             source = shader.source(name)
             if source is not None and source.type != "NORMAL_MAP":
-                self.written.unbumped.add(self.material.name)
+                self.written.unbumped.add(self.name)
                 self.note(f"'{source.name}' at its input {name} is not brought over: only normal maps are")
 
     def subsurface(self, shader: Seen) -> Document | None:
@@ -356,7 +363,7 @@ class Reader:
         medium = volumes.medium(volume) if self.closed else None
         if medium is None:
             self.note(f"the volume '{volume.name}' is not brought over: only constants in closed meshes are")
-            self.written.left_out.add(self.material.name)
+            self.written.left_out.add(self.name)
             return {}
         if volumes.glows(volume):
             self.note(f"the light of the volume '{volume.name}' is not brought over")

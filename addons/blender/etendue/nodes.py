@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 LUMINANCE = (0.2126, 0.7152, 0.0722)
+VERTICES = ("VERTEX_COLOR", "ATTRIBUTE")  # nodes of what vertices have
 
 
 @dataclass(frozen=True)

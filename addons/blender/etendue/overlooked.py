@@ -1,14 +1,17 @@
-"""What of a scene's objects and view layer is not brought over, said once each. Needs nothing of Blender."""
+"""What of a scene's objects and view layer is not brought over, said once each. Takes objects that look like Blender's, and
+needs nothing of Blender itself."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import Any
 
+from .identity import Tree, uses_nodes
 from .lamps import is_portal
+from .written import Document
 
 SHOWN = 4  # names in a note
-KINDS = {"VOLUME": "volumes", "GPENCIL": "grease pencil", "GREASEPENCIL": "grease pencil", "CURVES": "hair",
+KINDS = {"META": "metaballs", "VOLUME": "volumes", "GPENCIL": "grease pencil", "GREASEPENCIL": "grease pencil", "CURVES": "hair",
          "POINTCLOUD": "clouds of points"}
 RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow")
 # Kinds of objects that become meshes.
@@ -30,10 +33,42 @@ def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
               (lambda item: any(getattr(getattr(item, "light_linking", None), name, None) is not None
                                 for name in ("receiver_collection", "blocker_collection")),
                "light linking is not brought over")]
-    groups = sorted(group.name for group in getattr(view_layer, "lightgroups", ()))
-    said = [f"light groups are not brought over: {listed(groups)}"] if groups else []
-    found = ((text, sorted({item.name for item in items if test(item)})) for test, text in tests)
-    return said + [f"{text}: {listed(names)}" for text, names in found if names]
+    return [*said("light groups are not brought over", getattr(view_layer, "lightgroups", ())),
+            *(note for test, text in tests for note in said(text, filter(test, items)))]
+
+
+def lost(scene: Any, document: Document, tree: Tree, rendered: Any, surfaces: Mapping[Any, Any], in_file: Collection[Any],
+         brought: Collection[tuple[Any, Any]], override: Any = None) -> list[str]:
+    """Says what is rendered and has nothing in the file. `in_file` are the materials of the file, unless one overrides them;
+    `brought` are its pairs of an instancer and what it instances."""
+    own = {item: document["nodes"][number] for number, item in tree.own().items()}
+
+    def shows(item: Any) -> bool:
+        return item.type not in KINDS and (item.type == "LIGHT" or (item in surfaces and surfaces[item].has_faces))
+
+    missing = [item for item in rendered.single & set(scene.objects)
+               if shows(item) and (item not in own if item.type == "LIGHT" else "mesh" not in own.get(item, {}))]
+    painted = [original for original, surface in surfaces.items() if override is None
+               and uses_nodes(rendered.items[original]) and surface.materials - set(in_file)]
+    # A curve is an instance of its own mesh, too.
+    instances: dict[Any, list[Any]] = {}
+    for instancer, item in rendered.instanced:
+        if instancer != item and shows(item) and (instancer, item) not in brought:
+            instances.setdefault(instancer, []).append(item)
+    sets = [scene.background_set] if scene.background_set is not None else []
+    return [*said("Blender's exporter leaves objects out", missing),
+            *said("materials that geometry nodes set are not brought over", painted),
+            *said("instances of meshes that geometry nodes make are not brought over",
+                  [instance.instancer for instance in rendered.scattered if instance.source is None]),
+            *(note for instancer, items in instances.items()
+              for note in said(f"instances by '{instancer.name}' are not brought over", items)),
+            *said("background sets are not brought over", sets)]
+
+
+def said(text: str, blocks: Iterable[Any]) -> list[str]:
+    """Returns a note with the names of the data-blocks, none where there are no data-blocks."""
+    names = sorted({block.name for block in blocks})
+    return [f"{text}: {listed(names)}"] if names else []
 
 
 def listed(names: list[str]) -> str:
@@ -69,15 +104,16 @@ def has_hair(item: Any) -> bool:
                for system in getattr(item, "particle_systems", ()))
 
 
-def is_indirect_only(item: Any, view_layer: Any) -> bool:
-    """Returns whether collections hide an object from the camera."""
-    return asks(item, "indirect_only_get", view_layer)
+def is_hidden(item: Any, view_layer: Any) -> bool:
+    """Returns whether the object itself or its collections hide a surface from the camera."""
+    return item.type in SURFACES and (not getattr(item, "visible_camera", True) or asks(item, "indirect_only_get", view_layer))
 
 
-def shadow_catchers(items: Iterable[Any], integrator: str, say: Callable[[str], None]) -> Iterator[str]:
-    """Yields the names of shadow catchers, where the integrator sees them."""
-    names = sorted(item.name for item in items if item.type in SURFACES and getattr(item, "is_shadow_catcher", False))
-    if names and integrator not in ("path", "direct", "naive", "auto"):
-        say(f"shadow catchers are ordinary surfaces to the integrator '{integrator}': {listed(names)}")
+def shadow_catchers(items: Iterable[Any], integrator: str, say: Callable[[str], None]) -> Iterator[Any]:
+    """Yields the shadow catchers, where the integrator sees them."""
+    catchers = [item for item in items if item.type in SURFACES and getattr(item, "is_shadow_catcher", False)]
+    if integrator in ("path", "direct", "naive", "auto"):
+        yield from catchers
         return
-    yield from names
+    for text in said(f"shadow catchers are ordinary surfaces to the integrator '{integrator}'", catchers):
+        say(text)

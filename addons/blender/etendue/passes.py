@@ -63,7 +63,8 @@ MATTES = (("use_pass_cryptomatte_object", "CryptoObject", "cryptomatte_object"),
           ("use_pass_cryptomatte_material", "CryptoMaterial", "cryptomatte_material"),
           ("use_pass_cryptomatte_asset", "CryptoAsset", "cryptomatte_asset"))
 # Passes of Blender's that this add-on does not offer.
-BLENDERS = ("AO", "Shadow", "SubsurfaceDir", "SubsurfaceInd", "SubsurfaceCol", "Denoising Normal", "Denoising Albedo", "Debug Sample Count")
+BLENDERS = ("AO", "Shadow", "SubsurfaceDir", "SubsurfaceInd", "SubsurfaceCol", "Denoising Normal", "Denoising Albedo",
+            "Debug Sample Count")
 EXTRA = re.compile(r"^([A-Za-z0-9_-]{1,100})=((?:lpe|light):.+)$")
 
 

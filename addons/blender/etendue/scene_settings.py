@@ -160,8 +160,8 @@ def camera_settings(camera: Any, written: Written, width: float, height: float) 
 # --- all of it
 
 def clamp(entry: Document, what: str, written: Written) -> None:
-    """Brings strengths below 0 and sizes of 0, which Blender has, into what the program takes."""
-    for key, least in (("power", 0.0), ("irradiance", 0.0), ("scale", 0.0), ("width", LEAST_SIZE), ("height", LEAST_SIZE)):
+    """Brings a world's strength below 0 and lamps' sizes of 0, which Blender has, into what the program takes."""
+    for key, least in (("scale", 0.0), ("width", LEAST_SIZE), ("height", LEAST_SIZE)):
         if entry.get(key, least) < least:
             written.notes.append(f"{what}: its {key} of {entry[key]:g} is brought over as {least:g}")
             entry[key] = least
@@ -214,7 +214,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     if lights:
         document["lights"] = lights
     override = getattr(view_layer, "material_override", None)
-    entries = {name_of(item): material(item, closed, written, item == override) for item, closed in materials}
+    entries = {name_of(item): material(item, closed, written, item == override, name_of(item)) for item, closed in materials}
     entries = {name: entry for name, entry in entries.items() if entry}
     if entries:
         document["materials"] = entries

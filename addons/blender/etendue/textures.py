@@ -11,7 +11,7 @@ from .nodes import Seen, place
 READ = ("TEX_IMAGE", "UVMAP", "NORMAL_MAP", "SEPARATE_COLOR", "SEPRGB", "VERTEX_COLOR", "ATTRIBUTE", "BUMP", "MAPPING", "TEX_COORD",
         "NORMAL", "GROUP_INPUT")
 SHADERS = ("BSDF_", "MIX_SHADER", "ADD_SHADER", "EMISSION", "SUBSURFACE_SCATTERING", "HOLDOUT", "BACKGROUND", "EEVEE_")
-SOURCES = {"SEQUENCE": "a sequence", "MOVIE": "a movie", "TILED": "of tiles"}
+SOURCES = {"SEQUENCE": "a sequence", "MOVIE": "a movie"}
 
 
 def notes(shader: Seen) -> Iterator[str]:

@@ -1,0 +1,147 @@
+"""Where nodes of the file stand and how they move, by where Blender has their objects."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy
+from mathutils import Matrix, Quaternion, Vector
+
+from . import glb, scene_settings
+from .identity import Tree, makes_instances_of_children
+from .overlooked import moves_blurred
+
+Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+KEYS = 9  # of motion while the shutter is open
+STILL = 0.01  # frames from the current one to where vectors are looked at without motion blur
+
+
+def moments(scene: Any) -> tuple[list[float], list[float]]:
+    """Frames at which motion is looked at, and their seconds from the opening of the shutter. Without motion blur, they are
+    as close as vectors need."""
+    start, end = -STILL, STILL
+    if has_motion_blur(scene):
+        start, end = scene_settings.shutter(scene.render, scene.etendue.shutter_position)
+    rate = scene.render.fps / scene.render.fps_base
+    steps = [index / (KEYS - 1) for index in range(KEYS)]
+    offsets = [step * (end - start) for step in steps]
+    return [scene.frame_current + start + offset for offset in offsets], [offset / rate for offset in offsets]
+
+
+def has_motion_blur(scene: Any) -> bool:
+    return scene.render.use_motion_blur and scene.render.motion_blur_shutter > 0.0
+
+
+def local_matrix(node: dict[str, Any]) -> Matrix:
+    if "matrix" in node:
+        return Matrix([node["matrix"][row::4] for row in range(4)])
+    x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
+    return Matrix.LocRotScale(Vector(node.get("translation", (0, 0, 0))), Quaternion((w, x, y, z)),
+                              Vector(node.get("scale", (1, 1, 1))))
+
+
+def columns(matrix: Matrix) -> list[float]:
+    return [matrix[row][column] for column in range(4) for row in range(4)]
+
+
+def world_matrices(document: dict[str, Any], tree: Tree) -> list[Matrix]:
+    """The matrix of each node in the world of the file."""
+    nodes = document.get("nodes", [])
+    result = [Matrix.Identity(4) for _ in nodes]
+    for number in tree.in_order():
+        above = tree.parents.get(number)
+        result[number] = (result[above] if above is not None else Matrix.Identity(4)) @ local_matrix(nodes[number])
+    return result
+
+
+def matrix_in_file(item: Any) -> Matrix:
+    """The matrix that the object's node has in the world of the file, or in what it is an instance in."""
+    if item.type in ("CAMERA", "LIGHT"):
+        return Y_UP @ item.matrix_world  # they look along -Z in either world
+    offset = Matrix.Identity(4)
+    if item.instance_type == "COLLECTION" and item.instance_collection is not None:
+        offset = Matrix.Translation(-item.instance_collection.instance_offset)
+    return Y_UP @ item.matrix_world @ offset @ Y_UP.inverted()
+
+
+def differ(one: Matrix, other: Matrix) -> bool:
+    """Returns whether matrices differ by more than single precision makes."""
+    largest = max(1.0, *(abs(number) for row in other for number in row))
+    return any(abs(a - b) > 1e-5 * largest for left, right in zip(one, other) for a, b in zip(left, right))
+
+
+def is_sheared(matrix: Matrix) -> bool:
+    """Returns whether the axes of the matrix are not at right angles."""
+    across, up, back = (axis.normalized() for axis in matrix.to_3x3().col)
+    return max(abs(across.dot(up)), abs(up.dot(back)), abs(back.dot(across))) > 1e-3
+
+
+def straighten(document: dict[str, Any], tree: Tree) -> None:
+    """Gives nodes the matrices that their objects have. The exporter gives them a place, a turn and a scale, by which
+    they lose what shears them: a turn below a scale that is not even."""
+    nodes = document.get("nodes", [])
+    worlds = [Matrix.Identity(4) for _ in nodes]
+    for number in tree.in_order():
+        above, item, instancer = tree.parents.get(number), tree.objects[number], tree.instancers[number]
+        before = worlds[above] if above is not None else Matrix.Identity(4)
+        worlds[number] = before @ local_matrix(nodes[number])
+        # What stands on vertices or particles has no matrix of its own.
+        if item is None or (instancer is not None and makes_instances_of_children(tree.objects[instancer])):
+            continue
+        exact = matrix_in_file(item)
+        if instancer is not None:
+            exact = worlds[instancer] @ exact
+        local = before.inverted_safe() @ exact
+        # Below a scale of 0, no matrix leads there.
+        if differ(worlds[number], exact) and not differ(before @ local, exact):
+            for key in ("translation", "rotation", "scale"):
+                nodes[number].pop(key, None)
+            nodes[number]["matrix"] = columns(local)
+            worlds[number] = exact
+
+
+def find_motions(scene: Any, document: dict[str, Any], tree: Tree) -> tuple[list[float], dict[int, glb.Motion]]:
+    """Finds how nodes move while the shutter is open, by the places that Blender gives their objects at moments in
+    between, whatever moves them. Meshes that change their form do not move."""
+    own = tree.own()
+    now = world_matrices(document, tree)
+    frames, seconds = moments(scene)
+    frame, subframe = scene.frame_current, scene.frame_subframe
+    worlds: list[dict[int, Matrix]] = []
+    try:
+        rest = {number: item.matrix_world.copy() for number, item in own.items()}
+        for moment in frames:
+            whole = int(numpy.floor(moment))
+            scene.frame_set(whole, subframe=moment - whole)
+            worlds.append({number: item.matrix_world.copy() for number, item in own.items()})
+    finally:
+        scene.frame_set(frame, subframe=subframe)
+    turned = Y_UP.inverted()
+    still = {number for number, item in own.items() if has_motion_blur(scene) and not moves_blurred(item)}
+    moved = [{number: now[number] if number in still
+              else Y_UP @ world[number] @ rest[number].inverted_safe() @ turned @ now[number] for number in own}
+             for world in worlds]
+    motions: dict[int, glb.Motion] = {}
+    for number in own:
+        parent = tree.parents.get(number)
+        # A node whose parent is a bone or an instance goes with it.
+        if parent is not None and parent not in own:
+            continue
+        local = [at[parent].inverted_safe() @ at[number] if parent is not None else at[number] for at in moved]
+        # A node with a matrix keeps it, and what is put above it moves.
+        if "matrix" in document["nodes"][number]:
+            kept = local_matrix(document["nodes"][number]).inverted_safe()
+            local = [matrix @ kept for matrix in local]
+        parts = [matrix.decompose() for matrix in local]
+        for previous, part in zip(parts, parts[1:]):
+            if part[1].dot(previous[1]) < 0.0:
+                part[1].negate()
+        motion: glb.Motion = {
+            "translation": [tuple(place) for place, _, _ in parts],
+            "rotation": [(turn.x, turn.y, turn.z, turn.w) for _, turn, _ in parts],
+            "scale": [tuple(scale) for _, _, scale in parts]}
+        motion = {path: values for path, values in motion.items()
+                  if any(abs(a - b) > 1e-6 for value in values for a, b in zip(value, values[0]))}
+        if motion:
+            motions[number] = motion
+    return seconds, motions
