@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
+import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,10 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
         except (ExportError, ProgramError, OSError, ValueError) as error:
             if not self.test_break():
                 self.say_error(str(error))
+        except Exception as error:  # pylint: disable=broad-except
+            # Blender would save a black image and end well.
+            traceback.print_exc()
+            self.say_error(f"this is a fault of the add-on, {type(error).__name__}: {error}")
 
     def say_error(self, message: str) -> None:
         self.report({"ERROR"}, message)
@@ -77,7 +82,7 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
         for note in exported.notes:
             self.report({"WARNING"}, note)
         image = folder / IMAGE
-        command = [program, "render", exported.folder, "-o", image, "--float", *exported.arguments]
+        command = [program, "render", exported.folder, "-o", image, "--float", "--no-png", *exported.arguments]
         if scene.render.threads_mode == "FIXED":
             command += ["--threads", scene.render.threads]
         size = self.size_of(scene)
@@ -89,7 +94,7 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
             if not self.run([program, "denoise", image, "-o", folder / DENOISED], exported):
                 return
             image = folder / DENOISED
-        self.show(read_exr(image), scene, view_layer)
+        self.show(read_exr(image), scene, view_layer, exported.indices)
 
     @staticmethod
     def size_of(scene: bpy.types.Scene) -> tuple[int, int]:
@@ -129,11 +134,9 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
             return
         self.end_result(result)
 
-    def show(self, exr: Exr, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
-        """Hands all passes over."""
+    def show(self, exr: Exr, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, given: dict[str, dict[str, int]]) -> None:
+        """Hands all passes over. `given` has the pass indices that are not 0, by layer and name."""
         asked = passes.wanted(view_layer)
-        given = {layer: {item.name: item.pass_index for item in items if item.pass_index != 0}
-                 for layer, items in (("object_id", bpy.data.objects), ("material_id", bpy.data.materials))}
         for item in asked:
             self.add_pass(item.name, len(item.channels), item.channels, layer=view_layer.name)
         result = self.begin_result(0, 0, exr.width, exr.height, layer=view_layer.name)
