@@ -133,7 +133,8 @@ def install(file, program, folder):
 def artists(folder, program):
     """Exports a scene with what artists do with objects, and writes what the file has of it."""
     from etendue.export import export_scene, reason_of
-    from etendue.placement import local_matrix, matrix_in_file
+    from etendue.glb import read_glb
+    from etendue.placement import local_matrix
     from etendue.surfaces import is_closed
     from mathutils import Matrix
     folder = Path(folder)
@@ -235,8 +236,8 @@ def artists(folder, program):
     # Vertex colours, one used and one not; a material that geometry nodes set; tiles.
     for name in ("Used", "Unused"):
         data = mesh(name, material(name))
-        for color in ("First", "Second"):
-            data.color_attributes.new(color, "FLOAT_COLOR", "CORNER").data[0].color = (0.0, 1.0, 0.0, 0.5) if color == "Second" else (1, 0, 0, 1)
+        for color, value in (("First", (1.0, 0.0, 0.0, 1.0)), ("Second", (0.0, 1.0, 0.0, 0.5))):
+            data.color_attributes.new(color, "FLOAT_COLOR", "CORNER").data.foreach_set("color", 24 * value)
         add(name, data)
     tree = bpy.data.materials["Used"].node_tree
     node = tree.nodes.new("ShaderNodeVertexColor")
@@ -298,12 +299,14 @@ def artists(folder, program):
     numbers = {}
     for number, entry in enumerate(nodes):
         numbers.setdefault(entry.get("name"), []).append(number)
-    kid = {name: difference(world(numbers[name][0]), matrix_in_file(bpy.data.objects[name]))
-           for name in ("Dolly", "Kid", "KidLamp", "KidView")}
-    top = {}
-    for name in ("Copy0", "Copy1"):
-        number = next(number for number in numbers["Top"] if numbers[name][0] in (parents.get(number), parents.get(parents.get(number))))
-        top[name] = difference(world(number), world(numbers[name][0]) @ matrix_in_file(bpy.data.objects["Top"]))
+    turned = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+    places = {name: [turned @ bpy.data.objects[name].matrix_world @ (turned.inverted() if look else Matrix.Identity(4))]
+              for name, look in (("Dolly", True), ("Kid", True), ("KidLamp", False), ("KidView", False))}
+    for instance in bpy.context.evaluated_depsgraph_get().object_instances:
+        if instance.is_instance and instance.object.name in ("Base", "Top"):
+            places.setdefault(instance.object.name, []).append(turned @ instance.matrix_world @ turned.inverted())
+    differences = {name: max(min(difference(world(number), place) for number in numbers[name]) for place in those)
+                   for name, those in places.items()}
     stands = sorted([round(number, 4) for number in world(number).translation] for number in numbers["Pine"]
                     if "mesh" in nodes[number])
     meshes = {name: [nodes[number]["mesh"] for number in those if "mesh" in nodes[number]] for name, those in numbers.items()}
@@ -313,6 +316,10 @@ def artists(folder, program):
         return found.gltf["meshes"][meshes[name][0]]["primitives"][0]
 
     document = json.loads((folder / "scene/render.json").read_text())
+    color = accessors[primitive("Used")["attributes"]["COLOR_0"]]
+    begin = found.gltf["bufferViews"][color["bufferView"]].get("byteOffset", 0)
+    binary = read_glb(folder / "scene/scene.glb")[1]
+    values = numpy.frombuffer(binary, {5123: numpy.uint16, 5126: numpy.float32}[color["componentType"]], 3, begin)
     bpy.ops.mesh.primitive_plane_add()
     closed = {"plane": is_closed(bpy.context.object.data)}
     for name in ("Ring", "Text"):
@@ -321,13 +328,13 @@ def artists(folder, program):
         item.to_mesh_clear()
     materials = [entry["name"] for entry in found.gltf["materials"]]
     (folder / "answer.json").write_text(json.dumps({
-        "kid": kid, "top": top, "stands": stands, "places": {name: len(those) for name, those in meshes.items()}, "closed": closed,
+        "differences": differences, "stands": stands, "places": {name: len(those) for name, those in meshes.items()}, "closed": closed,
         "put back": before == after, "left": [key for item in (*bpy.data.objects, *bpy.data.materials) for key in item.keys()
                                               if key == "etendue_number"],
         "triangles": {name: accessors[primitive(name)["indices"]]["count"] // 3 for name in ("Monitor", "Eye", "Within", "Ring")},
         "colors": {name: accessors[primitive(name)["attributes"]["COLOR_0"]]["type"] if "COLOR_0" in primitive(name)["attributes"]
                    else None for name in ("Used", "Unused")},
-        "material of": {name: materials[primitive(name)["material"]] for name in numbers if name and meshes[name]},
+        "green": [bool(value > 0) for value in values], "material of": {name: materials[primitive(name)["material"]] for name in numbers if name and meshes[name]},
         "blue": [entry["name"] for entry in found.gltf["materials"]
                  if entry.get("pbrMetallicRoughness", {}).get("baseColorFactor", [])[:3] == [0, 0, 1]],
         "lights": sorted(document["lights"]), "indices": found.indices, "notes": found.notes,

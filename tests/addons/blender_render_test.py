@@ -246,7 +246,8 @@ class Export(InBlender):
         found = json.loads((self.folder / "answer.json").read_text())
         self.assertTrue(found["put back"], said)
         self.assertEqual(found["left"], [])
-        for name, difference in (found["kid"] | found["top"]).items():
+        self.assertEqual(sorted(found["differences"]), ["Base", "Dolly", "Kid", "KidLamp", "KidView", "Top"])
+        for name, difference in found["differences"].items():
             self.assertLess(difference, 1e-5, name)
         # Sources are rendered where they are instanced alone; linked and local data are told apart.
         places = found["places"]
@@ -258,6 +259,7 @@ class Export(InBlender):
         # Three cubes each; eight rows of a ring for each of its four points, with a section of four sides.
         self.assertEqual(found["triangles"], {"Monitor": 36, "Eye": 36, "Within": 36, "Ring": 256})
         self.assertEqual(found["colors"], {"Used": "VEC3", "Unused": None})
+        self.assertEqual(found["green"], [False, True, False])
         self.assertEqual(found["closed"], {"plane": False, "Ring": True, "Text": True})
         self.assertEqual(found["lights"], ["KidLamp", "POINT"])
         self.assertEqual(found["areas"], ["rectangle", "rectangle"])
