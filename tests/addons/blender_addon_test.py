@@ -455,6 +455,9 @@ class Identity(unittest.TestCase):
         entries = [{"extras": {identity.KEY: 1}}, {"extras": {identity.KEY: 0, "mine": 2}}, {}]
         self.assertEqual(identity.take_blocks(entries, blocks), [blocks[1], blocks[0], None])
         self.assertEqual(entries, [{}, {"extras": {"mine": 2}}, {}])
+        twins = [*blocks, fake.Block("B", "a.blend")]
+        self.assertEqual(identity.take_blocks([{"name": "A"}, {"name": "B"}, {"name": "C"}], twins, True), [blocks[0], None, None])
+        self.assertEqual(identity.take_blocks([{"name": "A"}], twins), [None])
 
     def test_linked_data_gives_way_to_what_is_local(self):
         linked, local, other = fake.Block("Paint", "a.blend"), fake.Block("Paint"), fake.Block("Wood", "a.blend")

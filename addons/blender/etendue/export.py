@@ -198,7 +198,7 @@ def read_gltf(scene: Any, view_layer: Any, path: Path, moves: bool) -> Gltf:
         document, binary = glb.read_glb(path)
         nodes = document.get("nodes", [])
         tree = tree_of(nodes, take_blocks(nodes, objects))
-        result = Gltf(document, binary, tree, take_blocks(document.get("materials", []), materials), notes)
+        result = Gltf(document, binary, tree, take_blocks(document.get("materials", []), materials, True), notes)
         straighten(document, tree)
         if moves:
             result.times, result.motions = find_motions(scene, document, tree)

@@ -26,13 +26,15 @@ def numbered(blocks: Sequence[Any]) -> Iterator[None]:
                 del block[KEY]
 
 
-def take_blocks(entries: Sequence[Document], blocks: Sequence[Any]) -> list[Any]:
-    """Returns the data-block of each entry by its number, None for those without, and takes the numbers out."""
+def take_blocks(entries: Sequence[Document], blocks: Sequence[Any], by_name: bool = False) -> list[Any]:
+    """Returns the data-block of each entry by its number and takes the numbers out. An entry without one has None, or, if
+    asked for, the data-block that alone has its name: evaluated copies may be older than the numbers."""
     found = []
     for entry in entries:
         extras = entry.get("extras", {})
         number = extras.pop(KEY, None)
-        found.append(blocks[number] if number is not None else None)
+        called = [block for block in blocks if block.name == entry.get("name")] if by_name and number is None else []
+        found.append(blocks[number] if number is not None else called[0] if len(called) == 1 else None)
         if "extras" in entry and not extras:
             del entry["extras"]
     return found
