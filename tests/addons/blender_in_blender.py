@@ -132,7 +132,8 @@ def install(file, program, folder):
 
 def artists(folder, program):
     """Exports a scene with what artists do with objects, and writes what the file has of it."""
-    from etendue.export import export_scene, reason_of
+    from etendue.export import export_scene
+    from etendue.exporter import reason_of
     from etendue.glb import read_glb
     from etendue.placement import local_matrix
     from etendue.surfaces import is_closed

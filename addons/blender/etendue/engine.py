@@ -16,7 +16,8 @@ import numpy
 from . import passes, scene_settings
 from .child import Progress, run
 from .exr import Exr, read_exr
-from .export import Exported, ExportError, export_scene
+from .export import Exported, export_scene
+from .exporter import ExportError
 from .pixels import combined, pixels_of
 from .program import ProgramError, find_program, with_names
 from .properties import preferences

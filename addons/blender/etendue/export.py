@@ -1,11 +1,9 @@
-"""A scene of Blender's as a scene directory of the program: Blender's own exporter, and what it leaves out."""
+"""A scene of Blender's as a scene directory of the program: what its exporter writes, mended, and what that leaves out."""
 
 from __future__ import annotations
 
 import json
-import threading
-from collections.abc import Callable, Collection, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -14,32 +12,15 @@ import bpy
 import numpy
 
 from . import glb, glb_materials, overlooked, passes, scene_settings, vertex_colors
+from .exporter import ExportError, Gltf, on_main_thread, read_gltf
 from .exr import write_exr
-from .identity import Tree, numbered, rendered_nodes, take_blocks, tree_of, unique_names, uses_nodes
+from .identity import Tree, rendered_nodes, unique_names
 from .images import image_bytes
-from .overlooked import SURFACES
-from .placement import Y_UP, columns, find_motions, has_motion_blur, is_sheared, straighten, world_matrices
+from .placement import Y_UP, columns, has_motion_blur, is_sheared, world_matrices
 from .program import known_part
 from .rendered import Rendered, rendered_objects
 from .surfaces import materials_of, surfaces_of
-from .viewport import as_rendered, changed
 from .written import Written
-
-# Options of the exporter and their names in its versions; those that a version lacks are left out.
-OPTIONS: dict[str, Any] = {
-    "export_format": "GLB", "export_cameras": True, "export_lights": True, "export_extras": True, "export_yup": True,
-    "export_apply": True, "export_materials": "EXPORT", "export_animations": False, "export_current_frame": True,
-    "export_skins": False, "export_morph": True, "export_morph_normal": True, "export_texcoords": True, "export_normals": True,
-    "export_colors": True, "export_all_vertex_colors": False, "export_draco_mesh_compression_enable": False,
-    "export_gn_mesh": False, "export_unused_images": False, "export_image_format": "AUTO", "use_selection": False,
-    "use_visible": False, "use_renderable": False, "use_active_collection": False, "use_active_scene": True,
-    "convert_lighting_mode": "COMPAT", "export_import_convert_lighting_mode": "COMPAT", "will_save_settings": False,
-    "check_existing": False, "export_original_specular": False, "export_hierarchy_full_collections": False,
-}
-
-
-class ExportError(Exception):
-    """The scene cannot be exported; the message is for the user."""
 
 
 @dataclass
@@ -49,160 +30,6 @@ class Exported:
     gltf: dict[str, Any] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     indices: dict[str, dict[str, int]] = field(default_factory=dict)  # pass indices that are not 0, by layer and name
-
-
-def on_main_thread(function: Callable[[], Any], is_stopped: Callable[[], bool]) -> Any:
-    """The function's result, or its exception. F12 renders in a thread of its own, in which operators must not run."""
-    if bpy.app.background or threading.current_thread() is threading.main_thread():
-        return function()
-    done, outcome = threading.Event(), {}
-
-    def call() -> None:
-        try:
-            if not outcome.get("given up"):
-                outcome["result"] = function()
-        except Exception as error:  # pylint: disable=broad-except
-            outcome["error"] = error
-        done.set()
-
-    bpy.app.timers.register(call, first_interval=0.0)
-    while not done.wait(0.05):
-        if is_stopped():
-            outcome["given up"] = True
-            raise ExportError("cancelled")
-    if "error" in outcome:
-        raise outcome["error"]
-    return outcome["result"]
-
-
-@contextmanager
-def slots_for_set_materials(view_layer: Any) -> Iterator[None]:
-    """Adds the materials that geometry nodes set to the slots of objects, from which the exporter takes them, while this
-    lasts."""
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    added = []
-    try:
-        for item in view_layer.objects:
-            if item.type != "MESH" or not uses_nodes(item):
-                continue
-            here = list(item.data.materials)
-            there = [material and material.original for material in item.evaluated_get(depsgraph).data.materials]
-            for material in there[len(here):] if there[:len(here)] == here else []:
-                item.data.materials.append(material)
-                added.append(item.data)
-        yield
-    finally:
-        for mesh in reversed(added):
-            mesh.materials.pop(index=len(mesh.materials) - 1)
-
-
-@contextmanager
-def first_tiles(images: Any, trees: Iterable[Any], notes: list[str]) -> Iterator[None]:
-    """Puts the first tile in the place of images with UDIM tiles, by which the exporter fails, while this lasts."""
-    tiles: dict[Any, Any] = {}
-    try:
-        for image in [image for image in images if image.source == "TILED" and image.users > 0]:
-            number = image.tiles[0].number
-            path = bpy.path.abspath(image.filepath, library=image.library).replace("<UDIM>", str(number))
-            path = path.replace("<UVTILE>", f"u{(number - 1001) % 10 + 1}_v{(number - 1001) // 10 + 1}")
-            try:
-                tiles[image] = images.load(path)
-            except RuntimeError:
-                raise ExportError(f"the image '{image.name}' has UDIM tiles, and the first, {path}, cannot be read") from None
-            tiles[image].colorspace_settings.name = image.colorspace_settings.name
-            tiles[image].alpha_mode = image.alpha_mode
-        users = [node for tree in trees for node in tree.nodes if getattr(node, "image", None) in tiles]
-        notes += [f"image '{image.name}': of its UDIM tiles, only the first is brought over" for image in tiles
-                  if any(node.image == image for node in users)]
-        with changed((node, "image", tiles[node.image]) for node in users):
-            yield
-    finally:
-        for tile in tiles.values():
-            images.remove(tile)
-
-
-@contextmanager
-def context_of(scene: Any, view_layer: Any) -> Iterator[None]:
-    """The scene and the view layer as what the exporter takes for the current ones."""
-    window = bpy.context.window or next((window for manager in bpy.data.window_managers for window in manager.windows), None)
-    if window is None:
-        raise ExportError("there is no window, not even an unseen one, which Blender's glTF exporter needs")
-    before = window.scene, window.view_layer
-    show_in(window, scene, view_layer)
-    try:
-        with bpy.context.temp_override(window=window, scene=scene, view_layer=view_layer):
-            yield
-    finally:
-        show_in(window, *before)
-
-
-def show_in(window: Any, scene: Any, view_layer: Any) -> None:
-    if window.scene != scene:
-        window.scene = scene
-    if window.view_layer != view_layer:
-        window.view_layer = view_layer
-
-
-def exporter() -> Any:
-    """The operator of Blender's glTF exporter, an add-on that users can turn off."""
-    try:
-        bpy.ops.export_scene.gltf.get_rna_type()
-    except (AttributeError, KeyError):
-        raise ExportError("Blender's add-on 'glTF 2.0 format' is needed and is turned off: Edit > Preferences > Add-ons"
-                          ) from None
-    return bpy.ops.export_scene.gltf
-
-
-def reason_of(message: str) -> str:
-    """Returns the line of an operator's error that says what is wrong: no place in Blender's Python."""
-    lines = [line.strip() for line in message.splitlines()]
-    said = [line for line in lines if line and not line.startswith(("Location:", "File ", "Traceback", "Error: Python:"))
-            and not line.endswith("... truncated") and line.strip("^~ ")]
-    return said[-1].removeprefix("Error: ") if said else "the console shows where"
-
-
-def write_gltf(path: Path) -> None:
-    operator = exporter()
-    known = {item.identifier for item in operator.get_rna_type().properties}
-    options = {name: value for name, value in OPTIONS.items() if name in known}
-    try:
-        operator("EXEC_DEFAULT", filepath=str(path), **options)
-    except RuntimeError as error:
-        raise ExportError(f"Blender's glTF exporter failed: {reason_of(str(error))}") from None
-    if not path.exists():
-        raise ExportError("Blender's glTF exporter has written no file")
-
-
-@dataclass
-class Gltf:
-    """Blender's export, with the objects of its nodes and the materials of its materials; and how nodes move."""
-
-    document: dict[str, Any]
-    binary: bytes
-    tree: Tree
-    materials: list[Any]
-    notes: list[str]
-    times: list[float] = field(default_factory=list)
-    motions: dict[int, glb.Motion] = field(default_factory=dict)
-
-
-def read_gltf(scene: Any, view_layer: Any, path: Path, moves: bool) -> Gltf:
-    """Has Blender export the scene to the path, and reads that."""
-    objects, materials, notes = list(bpy.data.objects), list(bpy.data.materials), []
-    trees = [material.node_tree for material in materials if material.node_tree is not None] + list(bpy.data.node_groups)
-    with context_of(scene, view_layer), as_rendered(scene, view_layer, bpy.data):
-        with first_tiles(bpy.data.images, trees, notes), changed(vertex_colors.choices(bpy.data.meshes)):
-            scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
-            with slots_for_set_materials(view_layer), numbered(objects), numbered(materials):
-                write_gltf(path)
-        document, binary = glb.read_glb(path)
-        nodes = document.get("nodes", [])
-        tree = tree_of(nodes, take_blocks(nodes, objects))
-        result = Gltf(document, binary, tree, take_blocks(document.get("materials", []), materials, True), notes)
-        straighten(document, tree)
-        if moves:
-            result.times, result.motions = find_motions(scene, document, tree)
-    return result
 
 
 def give_names(gltf: Gltf, objects: Iterable[Any], materials: Iterable[Any]) -> dict[Any, str]:
@@ -240,28 +67,6 @@ def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> 
 
 def bytes_of(image: Any) -> tuple[bytes, str]:
     return image_bytes(image, Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None)
-
-
-def change_materials(document: dict[str, Any], written: Written, names: Collection[str], suffix: str,
-                     change: dict[str, Any]) -> dict[str, str]:
-    """Gives the meshes of these objects materials of their own, whose entries in render.json have a change. Returns which
-    material each is a copy of."""
-    origins = glb.give_own_materials(document, names, suffix)
-    entries = written.document.setdefault("materials", {}) if origins else {}
-    for name, origin in origins.items():
-        entries[name] = {**entries.get(origin, {}), **change}
-    return origins
-
-
-def own_materials(document: dict[str, Any], written: Written, rendered: Rendered, view_layer: Any, integrator: str,
-                  names: dict[Any, str]) -> dict[str, str]:
-    """Gives materials of their own to what catches shadows and to what the camera is not to see. Returns which material
-    each is a copy of."""
-    items = rendered.items.values()
-    catchers = {names[item.original] for item in overlooked.shadow_catchers(items, integrator, written.note)}
-    hidden = {names[item.original] for item in items if overlooked.is_hidden(item, view_layer)}
-    return (change_materials(document, written, catchers, "that catches shadows", {"shadow_catcher": True})
-            | change_materials(document, written, hidden, "hidden from the camera", {"visible_to_camera": False}))
 
 
 def move_instanced_areas(gltf: Gltf, lights: dict[str, Any], rendered: Rendered, shown: Collection[int],
@@ -310,6 +115,28 @@ def mend_nodes(gltf: Gltf, rendered: Rendered, camera: Any, render: Any, lights:
                              if item.type == "LIGHT" and item.data.type == "SPOT"})
     move_instanced_areas(gltf, lights, rendered, shown, names)
     return tree.pairs(shown) | scatter(document, tree, rendered, meshes, names)
+
+
+def change_materials(document: dict[str, Any], written: Written, names: Collection[str], suffix: str,
+                     change: dict[str, Any]) -> dict[str, str]:
+    """Gives the meshes of these objects materials of their own, whose entries in render.json have a change. Returns which
+    material each is a copy of."""
+    origins = glb.give_own_materials(document, names, suffix)
+    entries = written.document.setdefault("materials", {}) if origins else {}
+    for name, origin in origins.items():
+        entries[name] = {**entries.get(origin, {}), **change}
+    return origins
+
+
+def own_materials(document: dict[str, Any], written: Written, rendered: Rendered, view_layer: Any, integrator: str,
+                  names: dict[Any, str]) -> dict[str, str]:
+    """Gives materials of their own to what catches shadows and to what the camera is not to see. Returns which material
+    each is a copy of."""
+    items = rendered.items.values()
+    catchers = {names[item.original] for item in overlooked.shadow_catchers(items, integrator, written.note)}
+    hidden = {names[item.original] for item in items if overlooked.is_hidden(item, view_layer)}
+    return (change_materials(document, written, catchers, "that catches shadows", {"shadow_catcher": True})
+            | change_materials(document, written, hidden, "hidden from the camera", {"visible_to_camera": False}))
 
 
 def mend_surfaces(gltf: Gltf, written: Written, override: Any, names: dict[Any, str]) -> None:
@@ -369,7 +196,7 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     if is_sheared(evaluated.camera.matrix_world):
         written.note(f"camera '{scene.camera.name}': that it is sheared by what it hangs below is not brought over")
     brought = mend_nodes(gltf, rendered, evaluated.camera, evaluated.render, written.document.get("lights", {}), names)
-    written.notes += overlooked.lost(scene, gltf.document, gltf.tree, rendered, surfaces, gltf.materials, brought, override)
+    written.notes += overlooked.lost(scene, document, gltf.tree, rendered, surfaces, gltf.materials, brought, override)
     written.notes += overlooked.notes(rendered.items.values(), view_layer)
     mend_surfaces(gltf, written, override, names)
     binary = glb_materials.mend(document, gltf.binary, written, bytes_of)
