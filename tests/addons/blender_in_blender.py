@@ -239,6 +239,7 @@ def artists(folder, program):
         data = mesh(name, material(name))
         for color, value in (("First", (1.0, 0.0, 0.0, 1.0)), ("Second", (0.0, 1.0, 0.0, 0.5))):
             data.color_attributes.new(color, "FLOAT_COLOR", "CORNER").data.foreach_set("color", 24 * value)
+        data.color_attributes.render_color_index = 0
         add(name, data)
     tree = bpy.data.materials["Used"].node_tree
     node = tree.nodes.new("ShaderNodeVertexColor")
