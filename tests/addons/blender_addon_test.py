@@ -596,6 +596,13 @@ class Pixels(unittest.TestCase):
         light = {f"diffuse_direct__{letter}": 3.0 for letter in "RGB"} | {f"albedo_diffuse__{letter}": 1.0 for letter in "RGB"}
         self.assertEqual(pixels.pixels_of(self.exr(**light), diffuse, {})[0, 0].tolist(), [2.0, 2.0, 2.0])
         self.assertIsNone(pixels.pixels_of(self.exr(), diffuse, {}))
+        # What light paths bring to a pixel without diffuse surfaces adds up all the same.
+        color = next(item for _, item in passes.STANDARD if item.name == "DiffCol")
+        light |= {"albedo_diffuse__G": -1.0}  # 0 below
+        times = pixels.pixels_of(self.exr(**light), diffuse, {}) * pixels.pixels_of(self.exr(**light), color, {})
+        self.assertEqual(times[0, 0].tolist(), [4.0, 4.0, 4.0])
+        black = {name: -1.0 if name.startswith("diffuse") else value for name, value in light.items()}
+        self.assertEqual(pixels.pixels_of(self.exr(**black), color, {})[0, 0].tolist(), [2.0, 0.0, 2.0])
 
     def test_numbers_become_pass_indices_by_the_names_of_objects(self):
         _, item = next(row for row in passes.STANDARD if row[1].name == "IndexOB")

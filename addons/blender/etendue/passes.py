@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-# Changes of the numbers on their way: none; Y up to Z up; over the diffuse albedo; ones; V up, and whether there is anything;
-# Blender's pass index in place of the program's number.
-AS_IS, TO_Z_UP, OVER_ALBEDO, WHITE, UV, INDEX = "as is", "to z up", "over albedo", "white", "uv", "index"
+# Changes of the numbers on their way: none; Y up to Z up; over the diffuse albedo; that albedo, white where light has none; ones;
+# V up, and whether there is anything; Blender's pass index in place of the program's number.
+AS_IS, TO_Z_UP, OVER_ALBEDO, ALBEDO, WHITE, UV, INDEX = (
+    "as is", "to z up", "over albedo", "albedo", "white", "uv", "index")
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ STANDARD = (
     ("use_pass_uv", Pass("UV", "UVA", "VECTOR", "uv", letters="UV", change=UV)),
     ("use_pass_diffuse_direct", Pass("DiffDir", "RGB", "COLOR", "diffuse_direct", change=OVER_ALBEDO)),
     ("use_pass_diffuse_indirect", Pass("DiffInd", "RGB", "COLOR", "diffuse_indirect", change=OVER_ALBEDO)),
-    ("use_pass_diffuse_color", Pass("DiffCol", "RGB", "COLOR", "albedo_diffuse")),
+    ("use_pass_diffuse_color", Pass("DiffCol", "RGB", "COLOR", "albedo_diffuse", change=ALBEDO)),
     ("use_pass_glossy_direct", Pass("GlossDir", "RGB", "COLOR", "specular_direct")),
     ("use_pass_glossy_indirect", Pass("GlossInd", "RGB", "COLOR", "specular_indirect")),
     ("use_pass_glossy_color", Pass("GlossCol", "RGB", "COLOR", "", change=WHITE)),

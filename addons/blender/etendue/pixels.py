@@ -8,8 +8,9 @@ from collections.abc import Mapping
 import numpy
 
 from .exr import Exr
-from .passes import AS_IS, INDEX, OVER_ALBEDO, TO_Z_UP, UV, WHITE, Pass
+from .passes import ALBEDO, AS_IS, INDEX, OVER_ALBEDO, TO_Z_UP, UV, WHITE, Pass
 
+LEAST_ALBEDO = numpy.float32(1e-5)
 NOTHING = numpy.float32(1e10)  # the program's depth where there is nothing
 
 
@@ -62,6 +63,15 @@ def pixels_of(exr: Exr, item: Pass, given: Mapping[str, Mapping[str, int]]) -> n
         # glTF counts v from the top.
         uva = numpy.concatenate([result[..., :1], 1.0 - result[..., 1:], numpy.ones_like(depth)], axis=-1)
         return numpy.where(covered, uva, numpy.float32(0.0))
-    assert item.change == OVER_ALBEDO
     albedo = planes(exr, [f"albedo_diffuse.{letter}" for letter in "RGB"])
-    return None if albedo is None else numpy.divide(result, albedo, out=numpy.zeros_like(result), where=albedo > 1e-5)
+    if albedo is None:
+        return None
+    if item.change == ALBEDO:
+        # Light paths bring light to pixels whose own rays meet nothing diffuse: without a colour it would be lost.
+        layers = [planes(exr, [f"{layer}.{letter}" for letter in "RGB"]) for layer in ("diffuse_direct", "diffuse_indirect")]
+        for light in layers:
+            if light is not None:
+                albedo[(albedo <= LEAST_ALBEDO) & (light > 0.0)] = 1.0
+        return albedo
+    assert item.change == OVER_ALBEDO
+    return numpy.divide(result, albedo, out=result.copy(), where=albedo > LEAST_ALBEDO)
