@@ -304,17 +304,21 @@ std::vector<AgreementCase> all_cases() {
                      all,
                      64,
                      bdpt});
-    const auto in_fog = [](SceneDesc& scene) {
+    const auto mist = [](float ior, float distance, const Rgb& multiscatter_color, float g) {
+        DielectricDesc desc{.ior = ior, .roughness = 0.0f};
+        desc.volume.attenuation_distance = distance;
+        desc.volume.attenuation_color = {0.3f, 0.4f, 0.5f};
+        desc.volume.multiscatter_color = multiscatter_color;
+        desc.volume.scatter_anisotropy = g;
+        MaterialDesc material;
+        material.override_model = desc;
+        return material;
+    };
+    const auto in_fog = [=](SceneDesc& scene) {
         add_ball(scene, gltf_plastic());
         add_lamp(scene);
-        MaterialDesc fog;
-        DielectricDesc desc{.ior = 1.00001f, .roughness = 0.0f};
-        desc.volume.attenuation_distance = 2.0f;
-        desc.volume.attenuation_color = {0.3f, 0.4f, 0.5f};
-        desc.volume.multiscatter_color = {0.5f, 0.6f, 0.4f};
-        desc.volume.scatter_anisotropy = 0.3f;
-        fog.override_model = desc;
-        add_object(scene, sphere({0, 0, -2}, 6, 16), add_material(scene, fog));
+        add_object(scene, sphere({0, 0, -2}, 6, 16),
+                   add_material(scene, mist(1.00001f, 2.0f, {0.5f, 0.6f, 0.4f}, 0.3f)));
     };
     // Not by light tracing: what scatters right before a pinhole has infinite variance there. Of so many light paths
     // the nearest vertex is some 5 cm away, and what lies nearer, 2% of the light, is nearly always missing.
@@ -323,17 +327,11 @@ std::vector<AgreementCase> all_cases() {
     cases.push_back({"LampInFogWithoutSurfaces", in_fog, {.max_depth = 1}, all, 16, bdpt});
     cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 32, bdpt});
     // Neither light nor camera is in the cloud, whose boundary light samples and connections pass.
-    const auto behind_cloud = [](SceneDesc& scene) {
+    const auto behind_cloud = [=](SceneDesc& scene) {
         add_ball(scene, gltf_plastic());
         add_occluder(scene);
-        MaterialDesc cloud;
-        DielectricDesc desc{.ior = 1.0f, .roughness = 0.0f};
-        desc.volume.attenuation_distance = 0.4f;
-        desc.volume.attenuation_color = {0.3f, 0.4f, 0.5f};
-        desc.volume.multiscatter_color = {0.8f, 0.7f, 0.6f};
-        desc.volume.scatter_anisotropy = 0.4f;
-        cloud.override_model = desc;
-        add_object(scene, sphere({0.1f, 0.1f, -2.6f}, 0.5f, 12), add_material(scene, cloud));
+        add_object(scene, sphere({0.1f, 0.1f, -2.6f}, 0.5f, 12),
+                   add_material(scene, mist(1.0f, 0.4f, {0.8f, 0.7f, 0.6f}, 0.4f)));
     };
     cases.push_back({"CloudUnderLamp",
                      [=](SceneDesc& scene) {

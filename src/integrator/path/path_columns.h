@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kUnsampled = 1u;
 inline constexpr std::uint32_t kOnlyDeltas = 2u;
 /// Every scattering but the last was a delta: what the path meets lights what the eye sees directly or in mirrors.
 inline constexpr std::uint32_t kIsDirect = 4u;
-/// Is one of the edges that the path has when its ray has hit, which the bits above the flags count. Media, clear
+/// Adds an edge to the count above the flags, of the edges that the path has once its ray has hit. Media, clear
 /// surfaces and hidden boundaries add none.
 inline constexpr std::uint32_t kOneEdge = 8u;
 inline constexpr std::uint32_t kFlags = kOneEdge - 1u;
