@@ -76,10 +76,10 @@ struct IntegratorEntry {
     int longest_path = std::numeric_limits<int>::max();  ///< edges
     /// Lists the settings, by their JSON pointers, that this integrator looks at and not all others do.
     std::span<const std::string_view> own_settings{};
-    bool merges = false;           ///< its samples may share photons, so that all pixels have as many
-    bool has_expressions = true;   ///< it tells the light of paths apart
-    bool catches_shadows = false;  ///< the camera sees the shadows of shadow catchers, and not their surface
-    bool shows_light = true;       ///< false: something else, for finding out what is wrong
+    bool merges = false;          ///< its samples may share photons, so that all pixels have as many
+    bool has_expressions = true;  ///< it tells the light of paths apart
+    bool catches_shadows = true;  ///< the camera sees the shadows of shadow catchers, and not their surface
+    bool shows_light = true;      ///< false: something else, for finding out what is wrong
 
     /// Returns true if `own_settings` has this JSON pointer.
     [[nodiscard]] bool owns(std::string_view setting) const {

@@ -4,18 +4,18 @@
 #include "transport/scattered_cone.h"
 #include "wave/aov/first_hits.h"
 #include "wave/lamps_in_view.h"
-#include "wave/ray_batch.h"
+#include "wave/one_kind_tracer.h"
 
 namespace etendue {
 
 namespace {
 
 /// Traces the rays of one camera sample, but for the first, and counts them.
-class CountingTracer final : public SampleTracer {
+class CountingTracer final : public OneKindTracer {
   public:
     CountingTracer(const World& world, const TileJob& job, const LampsInView& lamps, SampleLight& light,
                    RenderCounters& counters)
-        : world_(world), job_(job), lamps_(lamps), light_(light), counters_(counters) {}
+        : OneKindTracer(world, job, RayKind::Bounce, counters), lamps_(lamps), light_(light) {}
 
     /// Goes on to the sample in `slot`, whose camera ray has met `hit`.
     void start(std::uint32_t slot, const Hit& hit) {
@@ -23,23 +23,20 @@ class CountingTracer final : public SampleTracer {
         first_ = hit;
         light_.count_ray(slot);
     }
-    [[nodiscard]] Hit nearest_hit(const Ray& ray, int number) override {
-        if (number == 1) return first_;
+    [[nodiscard]] Hit nearest_hit(const Ray& ray, int number, RayEnds ends) override {
+        if (number == 1 && ends == RayEnds::InScene) return first_;
         light_.count_ray(slot_);
-        return intersect_one(world_, job_, RayKind::Bounce, ray, counters_);
+        return OneKindTracer::nearest_hit(ray, number, ends);
     }
     [[nodiscard]] std::uint8_t occluded(const Ray& ray) override {
         light_.count_ray(slot_);
-        return occluded_one(world_, job_, RayKind::Shadow, ray, counters_);
+        return OneKindTracer::occluded(ray);
     }
     [[nodiscard]] bool finds_emission(const Hit& hit) const override { return lamps_.finds_emission(hit); }
 
   private:
-    const World& world_;
-    const TileJob& job_;
     const LampsInView& lamps_;
     SampleLight& light_;
-    RenderCounters& counters_;
     std::uint32_t slot_ = 0;
     Hit first_;
 };

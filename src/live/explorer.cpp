@@ -114,7 +114,7 @@ Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given
 
     std::vector<std::string> to_choose = replace_auto(scene_.settings);
     const std::string first = scene_.settings.integrator.type;
-    const std::string second = catcher_ ? (first == "naive" ? "path" : "naive") : (first == "bdpt" ? "path" : "bdpt");
+    const std::string second = first == "bdpt" ? "path" : "bdpt";
     for (const bool is_first : {true, false}) {
         const std::string integrator = is_first ? first : second;
         const ExplorerChoice choice{is_first, integrator, scene_.settings.integrator.lengths.max_depth, ""};

@@ -10,19 +10,11 @@ namespace etendue {
 
 namespace {
 
-/// Has `path` render where the pilot was to choose and the camera sees a shadow catcher. Throws SceneError if an
-/// integrator is asked for that does not see its shadow.
-void require_shadows_caught(SceneDesc& scene, ProblemList& problems) {
+/// Throws SceneError if an integrator is asked for that does not see the shadow of a catcher in the scene.
+void require_shadows_caught(const SceneDesc& scene) {
     const std::optional<std::string> catcher = shadow_catcher(scene);
-    std::string& type = scene.settings.integrator.type;
     if (!catcher) return;
-    if (type == kAutoIntegrator) {
-        type = "path";
-        problems.note(scene.settings.at("/integrator/type"),
-                      fmt::format("'path' renders, as the material '{}' catches shadows", *catcher));
-        return;
-    }
-    if (const std::optional<std::string> reason = misses_shadows(type, *catcher))
+    if (const std::optional<std::string> reason = misses_shadows(scene.settings.integrator.type, *catcher))
         throw SceneError(scene.settings.at("/integrator/type"), *reason);
 }
 
@@ -35,10 +27,10 @@ std::optional<std::string> shadow_catcher(const SceneDesc& scene) {
 
 std::optional<std::string> misses_shadows(const std::string& integrator, const std::string& catcher) {
     const IntegratorEntry* const entry = find_integrator(integrator);
-    if (entry == nullptr || entry->catches_shadows || !entry->shows_light) return std::nullopt;
+    if (entry == nullptr || entry->catches_shadows) return std::nullopt;
     return fmt::format(
-        "'{}' does not see what the material '{}' is to catch: connections from the light have no alpha; "
-        "'path', 'direct' and 'naive' see shadow catchers",
+        "'{}' does not see what the material '{}' is to catch: paths from the lights have no alpha; all other "
+        "integrators do",
         integrator, catcher);
 }
 
@@ -47,7 +39,7 @@ void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& prob
     const ProblemList remaining = validate(scene);
     if (remaining.has_errors()) throw SceneError(remaining);
     apply_variant(scene);
-    require_shadows_caught(scene, problems);
+    require_shadows_caught(scene);
 }
 
 }  // namespace etendue

@@ -10,9 +10,9 @@
 
 namespace etendue {
 
-/// Adds a camera and a light where `scene`, whose animation fills `swept`, has none, applies the variant of its
-/// materials, and has `path` render shadow catchers unless an integrator is asked for; `problems` notes what was added
-/// and chosen. Throws SceneError for what `validate` finds, and for integrators that do not see shadow catchers.
+/// Adds a camera and a light where `scene`, whose animation fills `swept`, has none, and applies the variant of its
+/// materials; `problems` notes what was added. Throws SceneError for what `validate` finds, and for integrators that do
+/// not see shadow catchers.
 void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems);
 
 /// Returns the name of a material that catches shadows, or nothing if none does.

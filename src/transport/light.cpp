@@ -62,7 +62,7 @@ std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, c
             keep(*lamp);
     if (lengths.max_depth < edges_to_connect(world) || is_black(subpath->emission->weight)) return found;
     for (const SubpathVertex& vertex : follow_subpath(sample, *subpath, lengths.roulette_depth)) {
-        if (vertex.is_hidden_from_camera() || !lengths.is_long_enough(vertex.next_edges)) continue;
+        if (!vertex.lights_camera() || !lengths.is_long_enough(vertex.next_edges)) continue;
         const Vec2f lens = sample.pair(SubpathEnd::AtLight, vertex.index, SubpathDimension::LightChoice);
         const auto view = view_from_lens(world, vertex.position, lens, eye.ray.time);
         if (!view) continue;

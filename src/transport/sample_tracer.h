@@ -12,8 +12,8 @@ namespace etendue {
 class SampleTracer {
   public:
     virtual ~SampleTracer() = default;
-    /// Returns what `ray` meets first, which is ray number `number` of its path; 1 comes from the camera.
-    [[nodiscard]] virtual Hit nearest_hit(const Ray& ray, int number) = 0;
+    /// Returns what `ray` meets first, which has `ends` and is number `number` of its path; 1 comes from the camera.
+    [[nodiscard]] virtual Hit nearest_hit(const Ray& ray, int number, RayEnds ends) = 0;
     /// Returns what `SceneGeometry::occluded` says of `ray`.
     [[nodiscard]] virtual std::uint8_t occluded(const Ray& ray) = 0;
     /// Returns true if another estimate finds the emission of `hit`, which the ray from the camera has met.

@@ -91,9 +91,9 @@ ComparedSample::ComparedSample(const World& world, const EyeSample& eye, const I
       setup_(setup),
       lamp_images_(settings.lamp_images),
       aims_(settings.aimed_emission) {
-    all_ = follow(sample(setup.merging));
-    unmerged_ = follow(sample({}));
-    of_path_tracing_ = follow(sample({}, true));
+    of_path_tracing_ = follow_light(sample({}, true));
+    unmerged_ = follow_light(sample({}));
+    all_ = setup.merging.merges() ? follow_light(sample(setup.merging)) : unmerged_;
 }
 
 SubpathSample ComparedSample::sample(const Merging& merging, bool counts_path_tracing_alone) const {
@@ -104,30 +104,31 @@ SubpathSample ComparedSample::sample(const Merging& merging, bool counts_path_tr
             counts_path_tracing_alone};
 }
 
-ComparedSample::Subpaths ComparedSample::follow(const SubpathSample& sample) const {
-    const SparedRays spared = spared_rays(lengths_.roulette_depth);
-    Subpaths subpaths;
-    double light_rays = 0.0;
-    subpaths.eye = follow_subpath(sample, begin_subpath_at_eye(sample), spared.of_eye,
-                                  [&](const Subpath& subpath, const Vertex& vertex, const SubpathDensities& arrived) {
-                                      subpaths.met.push_back({subpath, vertex, arrived});
-                                  });
+std::vector<SubpathVertex> ComparedSample::follow_light(const SubpathSample& sample) {
+    std::vector<SubpathVertex> vertices;
+    light_rays_ = 0.0;
     const std::optional<Subpath> from_light = begin_subpath_at_light(sample);
     if (from_light && leads_to_camera(sample, *from_light))
-        subpaths.light =
-            follow_subpath(sample, *from_light, spared.of_light,
-                           [&](const Subpath&, const Vertex&, const SubpathDensities&) { light_rays += 1.0; });
-    const auto eye = static_cast<double>(subpaths.eye.size());
-    const auto light = static_cast<double>(subpaths.light.size());
+        vertices = follow_subpath(sample, *from_light, spared_rays(lengths_.roulette_depth).of_light,
+                                  [&](const Subpath&, const Vertex&, const SubpathDensities&) { light_rays_ += 1.0; });
     // Rays that end in a medium arrive at nothing.
-    subpaths.work = {.eye_rays = static_cast<double>(subpaths.met.size()) + in_media(subpaths.eye),
-                     .light_samples = eye,
-                     .light_rays = light_rays + in_media(subpaths.light),
-                     .connections = (eye + 1.0) * light};
-    cut_short(subpaths.met);
-    cut_short(subpaths.eye);
-    cut_short(subpaths.light);
-    return subpaths;
+    light_rays_ += in_media(vertices);
+    light_vertices_ = static_cast<double>(vertices.size());
+    cut_short(vertices);
+    return vertices;
+}
+
+ComparedSample::EyeSubpath ComparedSample::follow_eye(const SubpathSample& sample) const {
+    EyeSubpath eye;
+    eye.vertices = follow_subpath(sample, begin_subpath_at_eye(sample), spared_rays(lengths_.roulette_depth).of_eye,
+                                  [&](const Subpath& subpath, const Vertex& vertex, const SubpathDensities& arrived) {
+                                      eye.met.push_back({subpath, vertex, arrived});
+                                  });
+    eye.rays = static_cast<double>(eye.met.size()) + in_media(eye.vertices);
+    eye.connectable = static_cast<double>(eye.vertices.size());
+    cut_short(eye.met);
+    cut_short(eye.vertices);
+    return eye;
 }
 
 void ComparedSample::Photons::append(const Photons& others) {
@@ -141,22 +142,23 @@ void ComparedSample::Photons::append(const Photons& others) {
 }
 
 void ComparedSample::append_photons(Photons& photons) const {
-    for (std::size_t i = 0; i < all_.light.size(); ++i) {
-        const SubpathVertex& vertex = all_.light[i];
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        const SubpathVertex& vertex = all_[i];
         if (!vertex.merging.merges) continue;
         photons.all.push_back(make_photon(vertex, vertex.surface.geometric_normal));
         place_of(photons.all.back()) = static_cast<std::uint32_t>(photons.all.size() - 1);
-        photons.unmerged.push_back(unmerged_.light[i].densities);
-        photons.of_path_tracing.push_back(of_path_tracing_.light[i].densities);
+        photons.unmerged.push_back(unmerged_[i].densities);
+        photons.of_path_tracing.push_back(of_path_tracing_[i].densities);
     }
 }
 
-void ComparedSample::compare_met(ComparedLight& sum, LightOfPath& by_path) const {
+void ComparedSample::compare_met(const EyeSubpaths& eye, ComparedLight& sum, LightOfPath& by_path) const {
     const SubpathSample all = sample(setup_.merging);
     const SubpathSample unmerged = sample({});
-    for (std::size_t i = 0; i < all_.met.size(); ++i) {
-        const Met& met = all_.met[i];
-        const bool is_lamp = met.vertex.kind != Vertex::Kind::Environment;
+    for (std::size_t i = 0; i < eye.all.met.size(); ++i) {
+        const Met& met = eye.all.met[i];
+        const Material* const material = met.vertex.surface.material;
+        const bool is_lamp = material != nullptr && material->emits;
         if (met.subpath.index == kDirectlySeen || (lamp_images_ && is_lamp && met.subpath.only_deltas)) continue;
         std::vector<StrategyLight> found;
         light_met(all, met.subpath, met.vertex, met.arrived,
@@ -164,7 +166,7 @@ void ComparedSample::compare_met(ComparedLight& sum, LightOfPath& by_path) const
         if (found.empty()) continue;
         std::vector<double> of_bdpt;
         std::vector<double> of_path;
-        const Met& other = unmerged_.met[i];
+        const Met& other = eye.unmerged.met[i];
         light_met(unmerged, other.subpath, other.vertex, other.arrived,
                   [&](const StrategyLight& light) { of_bdpt.push_back(all_of(light.sums)); });
         // Path tracing has no strategy with s > 1: only `a`, which stands for s = 1, counts.
@@ -179,44 +181,44 @@ void ComparedSample::compare_met(ComparedLight& sum, LightOfPath& by_path) const
     }
 }
 
-void ComparedSample::compare_sampled(ComparedLight& sum, LightOfPath& by_path) const {
+void ComparedSample::compare_sampled(const EyeSubpaths& eye, ComparedLight& sum, LightOfPath& by_path) const {
     const SubpathSample all = sample(setup_.merging);
     const SubpathSample unmerged = sample({});
-    for (std::size_t i = 0; i < all_.eye.size(); ++i) {
-        const StrategyLight found = light_sampled(all, all_.eye[i]);
+    for (std::size_t i = 0; i < eye.all.vertices.size(); ++i) {
+        const StrategyLight found = light_sampled(all, eye.all.vertices[i]);
         if (is_black(found.weighted())) continue;
-        const StrategySums sums = light_sampled(unmerged, unmerged_.eye[i]).sums;
+        const StrategySums sums = light_sampled(unmerged, eye.unmerged.vertices[i]).sums;
         sum.add(compared(found, 1.0 + sums.fewer_from_light, all_of(sums)));
         by_path.add(found, 1.0 + sums.fewer_from_light);
     }
 }
 
-void ComparedSample::compare_connected(ComparedLight& sum) const {
+void ComparedSample::compare_connected(const EyeSubpaths& eye, ComparedLight& sum) const {
     const SubpathSample all = sample(setup_.merging);
     const SubpathSample unmerged = sample({});
     const SubpathSample of_path = sample({}, true);
-    for (std::size_t i = 0; i < all_.eye.size(); ++i)
-        for (std::size_t j = 0; j < all_.light.size(); ++j) {
-            const StrategyLight found = light_connected(all, all_.eye[i], all_.light[j]);
+    for (std::size_t i = 0; i < eye.all.vertices.size(); ++i)
+        for (std::size_t j = 0; j < all_.size(); ++j) {
+            const StrategyLight found = light_connected(all, eye.all.vertices[i], all_[j]);
             if (is_black(found.weighted())) continue;
             sum.add(compared(
-                found, light_connected(of_path, unmerged_.eye[i], of_path_tracing_.light[j]).sums.fewer_from_light,
-                all_of(light_connected(unmerged, unmerged_.eye[i], unmerged_.light[j]).sums)));
+                found, light_connected(of_path, eye.unmerged.vertices[i], of_path_tracing_[j]).sums.fewer_from_light,
+                all_of(light_connected(unmerged, eye.unmerged.vertices[i], unmerged_[j]).sums)));
         }
 }
 
-void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons, SampleWork& work,
-                                    ComparedLight& sum) const {
+void ComparedSample::compare_merged(const EyeSubpaths& eye, const PhotonMap& map, const Photons& photons,
+                                    SampleWork& work, ComparedLight& sum) const {
     const SubpathSample all = sample(setup_.merging);
-    for (std::size_t i = 0; i < all_.eye.size(); ++i) {
-        const SubpathVertex& eye = all_.eye[i];
-        if (!eye.merging.merges) continue;
-        SubpathVertex no_others = unmerged_.eye[i];
+    for (std::size_t i = 0; i < eye.all.vertices.size(); ++i) {
+        const SubpathVertex& at = eye.all.vertices[i];
+        if (!at.merging.merges) continue;
+        SubpathVertex no_others = eye.unmerged.vertices[i];
         no_others.densities = {};
-        const double within = all.mis.merging.expected_within(all.mis.merging.radius(eye.position));
-        light_merged(all, eye, map, [&](const Photon& photon, const StrategyLight& light) {
+        const double within = all.mis.merging.expected_within(all.mis.merging.radius(at.position));
+        light_merged(all, at, map, [&](const Photon& photon, const StrategyLight& light) {
             work.merges += 1.0;
-            const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
+            const auto scattered = at.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             const auto others = [&](const SubpathVertex& vertex, const SubpathDensities& of_photon) {
                 Photon with = photon;
                 with.a = static_cast<float>(of_photon.a);
@@ -224,36 +226,42 @@ void ComparedSample::compare_merged(const PhotonMap& map, const Photons& photons
                 return others_of_merge(all.mis, vertex, with, scattered, within);
             };
             sum.add(compared(light, others(no_others, photons.of_path_tracing[place_of(photon)]),
-                             others(unmerged_.eye[i], photons.unmerged[place_of(photon)])));
+                             others(eye.unmerged.vertices[i], photons.unmerged[place_of(photon)])));
         });
     }
 }
 
 ComparedLight ComparedSample::compare(const PhotonMap& map, const Photons& photons, SampleWork& work,
                                       const HearLight& hear) const {
-    work.add(all_.work);
+    EyeSubpaths eye;
+    eye.unmerged = follow_eye(sample({}));
+    eye.all = setup_.merging.merges() ? follow_eye(sample(setup_.merging)) : eye.unmerged;
+    work.add({.eye_rays = eye.all.rays,
+              .light_samples = eye.all.connectable,
+              .light_rays = light_rays_,
+              .connections = (eye.all.connectable + 1.0) * light_vertices_});
 
     ComparedLight sum;
     LightOfPath by_path;
-    compare_met(sum, by_path);
-    compare_sampled(sum, by_path);
+    compare_met(eye, sum, by_path);
+    compare_sampled(eye, sum, by_path);
     sum.moments.front() += by_path.sum * by_path.sum - by_path.squares;
-    compare_connected(sum);
+    compare_connected(eye, sum);
     // The light of all strategies varies together, too; so do the photons of a vertex, of which path tracing and
     // bidirectional path tracing would find one at a time.
     const double squares = sum.moments.back();
     sum.moments[1] += sum.light * sum.light - squares;
-    compare_merged(map, photons, work, sum);
+    compare_merged(eye, map, photons, work, sum);
     sum.moments.back() = sum.light * sum.light;
 
     const SubpathSample all = sample(setup_.merging);
     const SubpathSample unmerged = sample({});
     const SubpathSample of_path = sample({}, true);
-    for (std::size_t j = 0; j < all_.light.size(); ++j) {
-        const auto found = light_at_lens(all, all_.light[j]);
+    for (std::size_t j = 0; j < all_.size(); ++j) {
+        const auto found = light_at_lens(all, all_[j]);
         if (!found || is_black(found->weighted())) continue;
-        hear(compared(*found, light_at_lens(of_path, of_path_tracing_.light[j])->sums.fewer_from_light,
-                      all_of(light_at_lens(unmerged, unmerged_.light[j])->sums)),
+        hear(compared(*found, light_at_lens(of_path, of_path_tracing_[j])->sums.fewer_from_light,
+                      all_of(light_at_lens(unmerged, unmerged_[j])->sums)),
              found->film);
     }
     return sum;

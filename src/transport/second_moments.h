@@ -51,10 +51,10 @@ struct SampleWork {
     void add(const SampleWork& other);
 };
 
-/// Holds the subpaths of a sample with the densities that each integrator's strategies have.
+/// Holds the light subpath of a sample with the densities that each integrator's strategies have.
 class ComparedSample {
   public:
-    /// Follows the subpaths of `eye`. Weights are those of the balance heuristic, whatever `settings` say.
+    /// Follows the light subpath of `eye`. Weights are those of the balance heuristic, whatever `settings` say.
     ComparedSample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
                    const BidirectionalSetup& setup);
 
@@ -82,11 +82,16 @@ class ComparedSample {
         Vertex vertex;
         SubpathDensities arrived;
     };
-    /// Holds both subpaths, with one kind of densities.
-    struct Subpaths {
+    /// Holds the eye subpath with one kind of densities.
+    struct EyeSubpath {
         std::vector<Met> met;
-        std::vector<SubpathVertex> eye, light;
-        SampleWork work;
+        std::vector<SubpathVertex> vertices;
+        double rays = 0.0;
+        double connectable = 0.0;  ///< its vertices before it was cut short
+    };
+    /// Holds the eye subpath with the strategies of `vcm` and with those of `bdpt`.
+    struct EyeSubpaths {
+        EyeSubpath all, unmerged;
     };
 
     /// Sums the light that path tracing finds at all vertices of a path, which varies together; but for fireflies,
@@ -100,11 +105,13 @@ class ComparedSample {
     };
 
     [[nodiscard]] SubpathSample sample(const Merging& merging, bool counts_path_tracing_alone = false) const;
-    [[nodiscard]] Subpaths follow(const SubpathSample& sample) const;
-    void compare_met(ComparedLight& sum, LightOfPath& by_path) const;
-    void compare_sampled(ComparedLight& sum, LightOfPath& by_path) const;
-    void compare_connected(ComparedLight& sum) const;
-    void compare_merged(const PhotonMap& map, const Photons& photons, SampleWork& work, ComparedLight& sum) const;
+    [[nodiscard]] std::vector<SubpathVertex> follow_light(const SubpathSample& sample);
+    [[nodiscard]] EyeSubpath follow_eye(const SubpathSample& sample) const;
+    void compare_met(const EyeSubpaths& eye, ComparedLight& sum, LightOfPath& by_path) const;
+    void compare_sampled(const EyeSubpaths& eye, ComparedLight& sum, LightOfPath& by_path) const;
+    void compare_connected(const EyeSubpaths& eye, ComparedLight& sum) const;
+    void compare_merged(const EyeSubpaths& eye, const PhotonMap& map, const Photons& photons, SampleWork& work,
+                        ComparedLight& sum) const;
 
     const World& world_;
     EyeSample eye_;
@@ -112,9 +119,11 @@ class ComparedSample {
     BidirectionalSetup setup_;
     bool lamp_images_ = true;
     bool aims_ = false;
-    Subpaths all_;              ///< with the strategies of `vcm`
-    Subpaths unmerged_;         ///< with those of `bdpt`
-    Subpaths of_path_tracing_;  ///< with s = 0 and s = 1 on the light's side
+    double light_rays_ = 0.0;
+    double light_vertices_ = 0.0;                 ///< that can be connected, before the subpath was cut short
+    std::vector<SubpathVertex> all_;              ///< with the strategies of `vcm`
+    std::vector<SubpathVertex> unmerged_;         ///< with those of `bdpt`
+    std::vector<SubpathVertex> of_path_tracing_;  ///< with s = 0 and s = 1
 };
 
 }  // namespace etendue

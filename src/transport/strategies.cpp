@@ -102,7 +102,7 @@ std::optional<StrategyOnFilm> lamp_at_lens(const SubpathSample& sample, const Em
 
 std::optional<StrategyOnFilm> light_at_lens(const SubpathSample& sample, const SubpathVertex& light) {
     const World& world = sample.world();
-    if (light.is_hidden_from_camera() || !sample.lengths.keeps(light.next_edges)) return {};
+    if (!light.lights_camera() || !sample.lengths.keeps(light.next_edges)) return {};
     const Vec2f lens = sample.pair(SubpathEnd::AtLight, light.index, SubpathDimension::LightChoice);
     const auto view = view_from_lens(world, light.position, lens, sample.eye.ray.time);
     if (!view) return {};

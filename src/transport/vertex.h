@@ -47,9 +47,9 @@ struct Vertex {
         return placed;
     }
 
-    /// True if the vertex lies on a surface that is hidden from the camera.
-    [[nodiscard]] bool is_hidden_from_camera() const {
-        return surface.material != nullptr && !surface.material->visible_to_camera;
+    /// Returns whether light that leaves the vertex straight for the camera arrives there.
+    [[nodiscard]] bool lights_camera() const {
+        return surface.material == nullptr || surface.material->lights_camera();
     }
     /// True if the vertex scatters light into directions that a light sample may have.
     [[nodiscard]] bool has_non_delta() const;

@@ -30,10 +30,13 @@ Hit nearest_hit(const World& world, const Ray& ray, RayEnds ends) {
 }
 
 Hit nearest_hit(const World& world, const EyePath& path) {
-    const Hit hit =
-        path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
+    const auto trace = [&](RayEnds ends) {
+        return path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays, ends)
+                                      : nearest_hit(world, path.ray, ends);
+    };
+    const Hit hit = trace(RayEnds::InScene);
     const bool passes = path.is_seen() && world.materials().is_hidden_from_camera(hit);
-    const Hit shown = passes ? nearest_hit(world, path.ray, RayEnds::AtCamera) : hit;
+    const Hit shown = passes ? trace(RayEnds::AtCamera) : hit;
     return world.traits().clips_far && path.is_seen() ? world.camera().cut_far(path.ray, shown) : shown;
 }
 

@@ -2,6 +2,7 @@
 
 #include "transport/delta_tree.h"
 #include "transport/direct_light.h"
+#include "transport/shadow_catcher.h"
 
 namespace etendue {
 
@@ -49,13 +50,23 @@ struct WhittedLight {
 
     void visit(const DeltaBranch& branch, NoState, const Vertex& vertex) {
         const EyePath& path = branch.path;
+        if (shows_shadow(path, vertex)) return see_shadow(branch, vertex);
         const bool escapes = vertex.kind == Vertex::Kind::Environment;
         if (escapes && path.is_seen() && world.environment().met(true).empty()) found.alpha = 0.0f;
         if (lengths.is_long_enough(path.edges))
             (path.is_seen() ? found.seen : found.scattered) += met_light(world, path, vertex);
-        if (vertex.kind != Vertex::Kind::Surface) return;
-        if (lengths.keeps(path.edges + 1) && vertex.has_non_delta())
+        if (vertex.kind == Vertex::Kind::Surface && lengths.keeps(path.edges + 1) && vertex.has_non_delta())
             found.scattered += branch_direct_light(world, branch, vertex);
+    }
+    /// Adds what the eye sees of a shadow catcher: the environment behind its shadow, or the shadow as alpha.
+    void see_shadow(const DeltaBranch& branch, const Vertex& vertex) {
+        const EyePath& path = branch.path;
+        const CaughtShadow caught =
+            caught_shadow(world, vertex.surface, -path.ray.direction, path.ray.time, branch.numbers, path.tracer);
+        if (world.environment().met(true).empty())
+            found.alpha = caught.share;
+        else
+            found.seen += met_light(world, path, environment_vertex(path.ray.direction)) * (1.0f - caught.share);
     }
     [[nodiscard]] static NoState after(NoState state, const Vertex&, const BsdfSample&) { return state; }
 };

@@ -101,7 +101,9 @@ class AlongAxis {
 
 bool LampsInView::is_lamp(const World& world, const Hit& hit) {
     // What touches other surfaces is told by whoever goes on from there.
-    return hit.valid() && !hit.in_contact && world.materials().at(hit)->emits;
+    if (!hit.valid() || hit.in_contact) return false;
+    const Material& material = *world.materials().at(hit);
+    return material.emits && material.lights_camera();
 }
 
 void LampsInView::start(const World& world, const TileJob& job, const PathLengths& lengths, bool filters_textures,

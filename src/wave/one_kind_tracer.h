@@ -7,17 +7,17 @@
 
 namespace etendue {
 
-/// Traces rays one by one and counts them as of one kind.
-class OneKindTracer final : public SampleTracer {
+/// Traces rays one by one and counts those that look for the nearest surface as of one kind.
+class OneKindTracer : public SampleTracer {
   public:
     OneKindTracer(const World& world, const TileJob& job, RayKind kind, RenderCounters& counters)
         : world_(world), job_(job), kind_(kind), counters_(counters) {}
 
-    [[nodiscard]] Hit nearest_hit(const Ray& ray, int /*number*/) override {
-        return intersect_one(world_, job_, kind_, ray, counters_);
+    [[nodiscard]] Hit nearest_hit(const Ray& ray, int /*number*/, RayEnds ends) override {
+        return intersect_one(world_, job_, ends == RayEnds::AtCamera ? RayKind::Primary : kind_, ray, counters_);
     }
     [[nodiscard]] std::uint8_t occluded(const Ray& ray) override {
-        return occluded_one(world_, job_, kind_, ray, counters_);
+        return occluded_one(world_, job_, RayKind::Shadow, ray, counters_);
     }
     [[nodiscard]] bool finds_emission(const Hit&) const override { return false; }
 

@@ -98,7 +98,7 @@ SurfaceEmission LightEmitter::surface_emission(const Emission& emission, const V
     const Light& light = data_.lights[emission.light];
     if (is_delta_light(light) || is_at_infinity(light)) return {};
     const Geometry& geometry = data_.geometries[data_.emitter_of_light[emission.light].geometry];
-    if (!data_.materials[geometry.material].visible_to_camera) return {};
+    if (!data_.materials[geometry.material].lights_camera()) return {};
     const EmissionSample& sample = emission.sample;
     const Vec3f normal = of_surface_light(
         light, Vec3f(0.0f),

@@ -106,6 +106,9 @@ struct Material {
     bool catches_shadows = false;  ///< the camera sees straight what share of its light is taken from it
     bool culls_back = false;       ///< the eye does not see it from behind, straight or by any way
 
+    /// Returns whether light that leaves the surface straight for the camera arrives there.
+    [[nodiscard]] bool lights_camera() const { return visible_to_camera && !catches_shadows; }
+
     AlphaTest alpha_test = AlphaTest::Opaque;
     float alpha_cutoff = 0.5f;
     float alpha_factor = 1.0f;

@@ -14,7 +14,7 @@ namespace {
 
 std::optional<PlainSurface> make_plain_surface(const WorldData& data, const Material& material) {
     if (material.emits || material.unlit || material.has_coat || material.needs_tangents() ||
-        material.filling != kNone || !material.visible_to_camera)
+        material.filling != kNone || !material.lights_camera())
         return std::nullopt;
     if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) {
         const auto* diffuse = std::get_if<Diffuse>(constant);

@@ -161,12 +161,11 @@ TEST_F(FirstPictures, ShadowCatchersAreForEyePaths) {
     json settings = json::parse(read_file(work_ / "a/render.json"));
     settings["materials"]["Floor"]["shadow_catcher"] = true;
     write_file(work_ / "a/render.json", settings.dump());
-    const std::string said = render({"a", "-o", "a.exr"});
-    EXPECT_TRUE(contains(said, "'path' renders, as the material 'Floor' catches shadows")) << said;
-    EXPECT_EQ(json::parse(read_file(work_ / "a.json")).at("integrator"), "path");
-    const ProgramResult refused = run({"render", "a", "--integrator", "bdpt", "-o", "b.exr"});
+    (void)render({"a", "-o", "a.exr"});
+    EXPECT_NE(json::parse(read_file(work_ / "a.json")).at("integrator"), "auto") << "the pilot has chosen";
+    const ProgramResult refused = run({"render", "a", "--integrator", "light", "-o", "b.exr"});
     EXPECT_EQ(refused.exit_code, 3);
-    EXPECT_TRUE(contains(refused.err, "'bdpt' does not see what the material 'Floor' is to catch")) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "'light' does not see what the material 'Floor' is to catch")) << refused.err;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "support/temporary_folder.h"
 #include "world/test_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -157,7 +158,7 @@ TEST(ShadowCatcher, CompositesOverAPlateToTheGroundThatItStandsFor) {
 }
 
 TEST(ShadowCatcher, HasAlphaOfTheShadowAlone) {
-    for (const char* const integrator : {"path", "naive"}) {
+    for (const char* const integrator : {"path", "naive", "bdpt", "vcm", "whitted"}) {
         const Pixels pixels = render_alone(ball_over_ground(catcher()), integrator, 32);
         double most = 0.0;
         double least = 1.0;
@@ -209,14 +210,74 @@ TEST(ShadowCatcher, IsRefusedWhereTheCameraIsInAMedium) {
 TEST(ShadowCatcher, DarkensTheEnvironmentThatTheCameraSees) {
     SceneDesc scene = ball_over_ground(catcher());
     scene.environment.visible_to_camera = true;
-    const Pixels pixels = render_alone(scene, "path", 32);
-    float brightest = 0.0f;
-    for (std::size_t i = 0; i < pixels.colors.size(); ++i) {
-        EXPECT_EQ(pixels.alphas[i], 1.0);
-        if (pixels.colors[i].r == pixels.colors[i].b) brightest = std::max(brightest, pixels.colors[i].r);
+    for (const char* const integrator : {"path", "bdpt", "whitted"}) {
+        const Pixels pixels = render_alone(scene, integrator, 32);
+        float brightest = 0.0f;
+        for (std::size_t i = 0; i < pixels.colors.size(); ++i) {
+            EXPECT_EQ(pixels.alphas[i], 1.0) << integrator;
+            if (pixels.colors[i].r == pixels.colors[i].b) brightest = std::max(brightest, pixels.colors[i].r);
+        }
+        EXPECT_NEAR(brightest, 0.3f, 0.005f) << integrator << ": the sky, and no ground";
     }
-    EXPECT_NEAR(brightest, 0.3f, 0.005f) << "the sky, and no ground";
 }
+
+MaterialDesc clear_pane() {
+    MaterialDesc material;
+    material.metallic = 0.0f;
+    material.roughness = 0.0f;
+    material.transmission = 1.0f;
+    return material;
+}
+
+// A pane stands between the camera and the ball.
+SceneDesc ball_behind_pane(const MaterialDesc& ground) {
+    SceneDesc scene = ball_over_ground(ground);
+    add_object(scene, quad({0.0f, 1.6f, 1.6f}, {4.0f, 0.0f, 0.0f}, {0.0f, 3.0f, 0.0f}),
+               add_material(scene, clear_pane()));
+    return scene;
+}
+
+TEST(ShadowCatcher, ShowsNothingOfItselfThroughPanes) {
+    for (const char* const integrator : {"path", "bdpt", "vcm", "whitted"}) {
+        const Pixels pixels = render_alone(ball_behind_pane(catcher()), integrator, 32);
+        const double least = *std::ranges::min_element(pixels.alphas);
+        EXPECT_LT(least, 0.3) << integrator << ": what the pane reflects, and the light that it takes from the ground";
+        EXPECT_EQ(*std::ranges::max_element(pixels.alphas), 1.0) << integrator << ": the ball";
+    }
+}
+
+// Glass and a mirror stand on the catcher, of which they see the surface.
+SceneDesc things_on_catcher() {
+    SceneDesc scene = ball_behind_pane(catcher());
+    scene.lights.clear();
+    add_object(scene, quad({-0.5f, 3.0f, 0.0f}, {0.5f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.5f}),
+               add_material(scene, emissive(Rgb(4.0f))));
+    MaterialDesc glass;
+    glass.override_model = DielectricDesc{};
+    MaterialDesc mirror;
+    mirror.override_model = ConductorDesc{.metal = "Ag", .roughness = 0.2f};
+    add_object(scene, sphere({-1.0f, 0.41f, 0.3f}, 0.4f, 12), add_material(scene, glass));
+    add_object(scene, sphere({1.1f, 0.41f, 0.0f}, 0.4f, 12), add_material(scene, mirror));
+    return scene;
+}
+
+class ShadowCatcherOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShadowCatcherOf, LightsObjectsAsInPathTracing) {
+    constexpr int kIntegrators = 3;
+    const World world = compile(things_on_catcher());
+    AgreementCase room{.name = "catcher", .make = {}, .lengths = {.max_depth = 6}};
+    room.spp = 12;
+    const ThreadPool threads;
+    const BlockAgreement result = test_agreement(
+        estimate(world, "path", room, {.first_seed = 900}, threads),
+        estimate(world, GetParam(), room, {.first_seed = 1000}, threads),
+        {.block_size = kAgreementBlock, .significance = sidak_level(1e-3, kIntegrators), .mean_tolerance = 0.02});
+    EXPECT_TRUE(result.agree()) << result.str();
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, ShadowCatcherOf, testing::Values("naive", "bdpt", "vcm"),
+                         [](const auto& run) { return std::string(run.param); });
 
 TEST(ShadowCatcher, IsAnOrdinarySurfaceToTheRestOfTheScene) {
     SceneDesc scene = ball_over_ground(catcher());

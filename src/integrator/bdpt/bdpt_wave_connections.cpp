@@ -138,7 +138,7 @@ void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::siz
         if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
         const MatteEnd& end = light_.vertices().matte_end(vertex);
-        if (!end.exists() && light_.vertices().whole(vertex).is_hidden_from_camera) continue;
+        if (!end.exists() && !light_.vertices().whole(vertex).lights_camera) continue;
         const Vec3f& position = end.exists() ? end.position : light_.vertices().whole(vertex).position;
         const auto view = view_from_camera(job.world(), job.job, position, lens, job.camera_rays[vertex.slot].time);
         if (!view) continue;

@@ -2,6 +2,7 @@
 
 #include "wave/aov/first_hits.h"
 #include "wave/profile/wave_profile.h"
+#include "wave/seen_shadow.h"
 
 namespace etendue {
 
@@ -18,6 +19,15 @@ LightKind kind_of_light_met_by(const SubpathState& state) {
 void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
     find_first_hits(parts_.job.world(), parts_.job.job, parts_.job.samples, rays, hits, parts_.tile);
     parts_.lamps.note(parts_.job.samples, rays, hits, parts_.counters);
+}
+
+void MetLight::on_shadow_catcher(SubpathState& state, const Ray& ray, const Hit& hit) {
+    const BdptJob& job = parts_.job;
+    const SeenShadow seen = seen_shadow(job.world(), job.job, ray, hit, job.samples[state.slot].key, parts_.counters);
+    for (std::uint32_t i = 0; i < seen.rays; ++i) parts_.found.count_ray(state.slot);
+    if (job.job.profile != nullptr) job.job.profile->use().light_samples += seen.rays;
+    parts_.alpha[state.slot] = seen.alpha;
+    state.throughput *= seen.environment;
 }
 
 void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySums& sums,
@@ -68,7 +78,8 @@ void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
     const World& world = parts_.job.world();
     const bool is_direct = state.index == kDirectlySeen;
     const std::span<const std::uint32_t> met = world.environment().met(is_direct);
-    if (is_direct && met.empty()) parts_.alpha[state.slot] = 0.0f;
+    // A subpath without light has met a shadow catcher, which has given the sample its alpha.
+    if (is_direct && met.empty() && !is_black(state.throughput)) parts_.alpha[state.slot] = 0.0f;
     if (!parts_.job.lengths.is_long_enough(state.edges)) return;
     for (const std::uint32_t light : met) {
         const Rgb radiance = world.environment().radiance(light, direction);

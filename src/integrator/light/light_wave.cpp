@@ -56,7 +56,7 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
     to_camera_.collect(job, SubpathEnd::AtLight, subpaths_);
     for (std::size_t i = 0; i < to_camera_.size(); ++i) {
         const PathVertex& vertex = subpaths_.vertices().whole(to_camera_[i]);
-        if (vertex.is_hidden_from_camera || !job.lengths.is_long_enough(vertex.next_edges)) continue;
+        if (!vertex.lights_camera || !job.lengths.is_long_enough(vertex.next_edges)) continue;
         const float time = camera_rays_[vertex.slot].time;
         const auto [lens] = to_camera_.numbers(i);
         const auto view = view_from_camera(job.world(), job.job, vertex.position, lens, time);

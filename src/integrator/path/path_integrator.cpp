@@ -23,7 +23,9 @@ std::vector<std::string> PathIntegrator::unreachable_light(const World& world) c
 }
 
 std::vector<std::string> PathIntegrator::ineffective_options(const World& world) const {
-    if (settings_.light_samples <= 1 || (world.traits().has_sampled_lights && settings_.lengths.max_depth > 1))
+    // A vertex in a medium adds no edge.
+    const int fewest = world.traits().samples_lights_in_media ? 1 : 2;
+    if (settings_.light_samples <= 1 || (world.traits().has_sampled_lights && settings_.lengths.max_depth >= fewest))
         return {};
     return {fmt::format("{} light samples have no effect: {}", settings_.light_samples,
                         world.traits().has_sampled_lights

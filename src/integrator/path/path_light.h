@@ -28,6 +28,7 @@ class PathLight {
     [[nodiscard]] LampsInView& lamps() { return lamps_; }
     /// Begins with `count` samples that have found no light yet.
     void begin(const TileJob& job, std::size_t count, RenderCounters& counters);
+    void count_ray(std::uint32_t slot) { found_.count_ray(slot); }
     /// Counts the next ray of all `active` paths, where limits of light ask for that.
     void count_rays(std::size_t active);
     /// Returns true if there are enough shadow rays for a batch.

@@ -2,10 +2,9 @@
 
 #include "core/vector_bytes.h"
 #include "transport/roulette.h"
-#include "transport/shadow_catcher.h"
 #include "wave/aov/first_hits.h"
-#include "wave/one_kind_tracer.h"
 #include "wave/ray_batch.h"
+#include "wave/seen_shadow.h"
 
 #include <algorithm>
 #include <span>
@@ -41,8 +40,8 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
             const std::span hits = std::span(paths_.hits).first(count);
             find_first_hits(world, job, samples, camera_rays, hits, tile);
             light_.lamps().note(samples, camera_rays, hits, counters);
-            if (world.traits().has_shadow_catchers) catch_shadows(world, job, count, counters);
         }
+        if (world.traits().has_shadow_catchers) catch_shadows(world, job, counters);
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { light_.trace_shadow_rays(world, job, tile, counters); };
         shade({world, job, settings, rays}, trace_shadow_rays);
@@ -58,25 +57,22 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
     for (std::size_t i = 0; i < active_; ++i) {
         if (!path_history::is_seen(paths_.history[i])) continue;
         Hit& hit = paths_.hits[i];
-        if (world.materials().is_hidden_from_camera(hit))
+        if (world.materials().is_hidden_from_camera(hit)) {
             hit = intersect_one(world, job, RayKind::Primary, rays[i], counters);
+            light_.count_ray(paths_.slot[i]);
+        }
         if (world.traits().clips_far) hit = world.camera().cut_far(rays[i], hit);
     }
 }
 
-void PathWave::catch_shadows(const World& world, const TileJob& job, std::size_t count, RenderCounters& counters) {
-    const bool shows_environment = !world.environment().met(true).empty();
-    OneKindTracer tracer(world, job, RayKind::Shadow, counters);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!world.materials().catches_shadows(paths_.hits[i])) continue;
-        const Ray ray = paths_.ray(i);
-        const SurfacePoint point = world.geometry().surface_point(paths_.hits[i]);
-        const CaughtShadow shadow =
-            caught_shadow(world, point, -ray.direction, ray.time, {job.sequence, paths_.key(i)}, &tracer);
-        light_.count_light_samples(job, i, shadow.rays);
+void PathWave::catch_shadows(const World& world, const TileJob& job, RenderCounters& counters) {
+    for (std::size_t i = 0; i < active_; ++i) {
+        if (!path_history::is_seen(paths_.history[i]) || !world.materials().catches_shadows(paths_.hits[i])) continue;
+        const SeenShadow seen = seen_shadow(world, job, paths_.ray(i), paths_.hits[i], paths_.key(i), counters);
+        light_.count_light_samples(job, paths_.slot[i], seen.rays);
+        light_.set_alpha(paths_.slot[i], seen.alpha);
+        paths_.throughput.set(i, paths_.throughput[i] * seen.environment);
         paths_.hits[i] = {};
-        paths_.throughput.set(i, Rgb(shows_environment ? 1.0f - shadow.share : 0.0f));
-        if (!shows_environment) light_.set_alpha(i, shadow.share);
     }
 }
 
@@ -93,6 +89,7 @@ void PathWave::shade(const PathContext& context, const TraceShadowRays& trace_sh
 template <typename Stamp>
 void PathWave::queue_light_samples(const PathContext& context, const LaneList& paths, std::uint32_t round,
                                    const Stamp& stamp) {
+    if (paths.empty()) return;
     for (const std::size_t k : paths)
         if (!block_.paths[k].is_wide) light_.evaluate(k);
     stamp(Stage::Material);

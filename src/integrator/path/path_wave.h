@@ -32,9 +32,8 @@ class PathWave final : public IntegratorScratch {
   private:
     /// Finds what the eye sees through clear surfaces where rays have hit what is hidden from it or too far away.
     void look_again(const World& world, const TileJob& job, RenderCounters& counters);
-    /// Ends the first `count` paths that have met a shadow catcher, of which the camera sees the shadow alone: before
-    /// the environment where it sees that, and else as alpha.
-    void catch_shadows(const World& world, const TileJob& job, std::size_t count, RenderCounters& counters);
+    /// Ends the paths at whose shadow catchers the eye looks.
+    void catch_shadows(const World& world, const TileJob& job, RenderCounters& counters);
     /// Shades all paths, block by block, and calls `trace_shadow_rays` whenever there are enough shadow rays for a
     /// batch.
     template <typename TraceShadowRays>

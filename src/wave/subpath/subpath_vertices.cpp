@@ -63,7 +63,7 @@ void SubpathVertices::place(const World& world, const SurfacePoint& point, float
     vertex.position = point.position;
     vertex.geometric_normal = point.geometric_normal;
     vertex.clearance = point.clearance;
-    vertex.is_hidden_from_camera = !point.material->visible_to_camera;
+    vertex.lights_camera = point.material->lights_camera();
     if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
     Bsdf& storage = bsdfs_[bsdf_count_];
     const Bsdf& bsdf = world.materials().bsdf(point, vertex.wo, relative_ior, storage);

@@ -53,14 +53,22 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         }
         if (kind == RayKind::Bounce && job.world().traits().hides_surfaces)
             for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen && job.world().materials().is_hidden_from_camera(hits_[i]))
+                if (states_[i].index == kDirectlySeen && job.world().materials().is_hidden_from_camera(hits_[i])) {
                     hits_[i] = intersect_one(job.world(), job.job, RayKind::Primary, rays_[i], counters);
+                    light.count_ray(states_[i].slot);
+                }
         if (job.world().traits().clips_far && end_ == SubpathEnd::AtEye)
             for (std::size_t i = 0; i < states_.size(); ++i)
                 if (states_[i].index == kDirectlySeen) hits_[i] = job.world().camera().cut_far(rays_[i], hits_[i]);
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
+        if (job.world().traits().has_shadow_catchers && finder != nullptr)
+            for (std::size_t i = 0; i < states_.size(); ++i)
+                if (states_[i].index == kDirectlySeen && job.world().materials().catches_shadows(hits_[i])) {
+                    finder->on_shadow_catcher(states_[i], rays_[i], hits_[i]);
+                    hits_[i] = {};
+                }
         stamp(job.job.profile, Stage::HitSetup);
         draw_numbers(job);
         stamp(job.job.profile, Stage::Numbers);
