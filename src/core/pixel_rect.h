@@ -20,6 +20,7 @@ struct PixelRect {
     }
     /// True if no pixel lies in the rectangle.
     [[nodiscard]] bool empty() const { return x1 <= x0 || y1 <= y0; }
+    [[nodiscard]] bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 

@@ -37,7 +37,7 @@ class Integrator {
     [[nodiscard]] virtual std::unique_ptr<IntegratorScratch> make_scratch() const = 0;
 
     /// Returns a sentence for each kind of light in `world` that this algorithm can never find; none if it finds all.
-    [[nodiscard]] virtual std::vector<std::string> unreachable_light(const World& world) const = 0;
+    [[nodiscard]] virtual std::vector<std::string> unreachable_light(const World& /*world*/) const { return {}; }
 
     /// Returns a sentence for each option that was asked for and has no effect on this algorithm in the given world.
     [[nodiscard]] virtual std::vector<std::string> ineffective_options(const World&) const { return {}; }

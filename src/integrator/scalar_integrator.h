@@ -11,7 +11,6 @@ namespace etendue {
 class ScalarIntegrator : public Integrator {
   public:
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
-    [[nodiscard]] std::vector<std::string> unreachable_light(const World& /*world*/) const override { return {}; }
     void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                      RenderCounters& counters) const override;
 

@@ -14,12 +14,23 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
-#include "transport/heuristic.h"
 #include "transport/merge_radius.h"
 #include "world/world.h"
 
 namespace etendue {
+
+/// Raises a density, or a ratio of densities, to the exponent of the heuristic.
+struct Raised {
+    Heuristic heuristic = Heuristic::Balance;
+
+    /// Returns `ratio` raised to the heuristic's exponent; a template of its lane type, see core/lane.h, or of double.
+    template <typename T>
+    [[nodiscard]] T operator()(T ratio) const {
+        return heuristic == Heuristic::Power ? ratio * ratio : ratio;
+    }
+};
 
 /// Numbers the vertex of a subpath at which a camera ray ends; the lens is 0.
 inline constexpr int kDirectlySeen = 1;
@@ -80,6 +91,29 @@ struct DepartingDensities {
         return {.a = arrives && is_connectible ? area * inverse : 0.0,
                 .b = arrives ? back * d * inverse : 0.0,
                 .merge_b = arrives ? back * merged * inverse : 0.0};
+    }
+};
+
+/// Holds how far a subpath is, between two of its vertices.
+struct SubpathProgress {
+    Rgb throughput{1.0f};  ///< without the weight of the wavelength
+    /// Multiplies the throughput for Russian roulette: eta² over the refractions of radiance, or one over what a
+    /// light began with.
+    float roulette_scale = 1.0f;
+    Vec3f from{0.0f};  ///< the vertex before
+    DepartingDensities departing;
+    int index = 1;  ///< index of the vertex to come
+    int edges = 1;  ///< edges of the path when its ray has hit; media, clear surfaces and hidden boundaries add none
+    bool is_dispersed = false;
+    bool only_deltas = true;
+    bool is_after_delta = false;  ///< a delta or a hidden boundary lies behind it
+    bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
+
+    /// Goes past the boundary of a body that another hides, which no connection passes.
+    void pass_hidden() {
+        departing.pass_hidden();
+        is_after_delta = true;
+        is_direct = false;
     }
 };
 

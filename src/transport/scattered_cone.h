@@ -8,7 +8,10 @@
 namespace etendue {
 
 /// Returns the cone of one pixel around the camera ray `ray`, of an image of `width` × `height` pixels.
-[[nodiscard]] RayCone camera_cone(const World& world, int width, int height, const Ray& ray);
+[[nodiscard]] inline RayCone camera_cone(const World& world, int width, int height, const Ray& ray) {
+    const float pixel_area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));
+    return pixel_cone(world.camera().model(), ray.direction, pixel_area);
+}
 
 /// Returns the cone that leaves the surface at `hit`, of `geometric_normal`, along `sample`, for one that arrives along
 /// `direction` with its width there. Mirrors and smooth refraction bend it by the curvature of the surface; lobes widen

@@ -85,23 +85,21 @@ void SampleWork::add(const SampleWork& other) {
 
 ComparedSample::ComparedSample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
                                const BidirectionalSetup& setup)
-    : world_(world),
-      eye_(eye),
+    : eye_(eye),
       lengths_(settings.lengths),
-      setup_(setup),
       lamp_images_(settings.lamp_images),
-      aims_(settings.aimed_emission) {
-    of_path_tracing_ = follow_light(sample({}, true));
-    unmerged_ = follow_light(sample({}));
-    all_ = setup.merging.merges() ? follow_light(sample(setup.merging)) : unmerged_;
-}
-
-SubpathSample ComparedSample::sample(const Merging& merging, bool counts_path_tracing_alone) const {
-    return {{world_, Raised{Heuristic::Balance}, setup_.samples_per_light_path, merging, aims_},
-            lengths_,
-            eye_,
-            setup_.shared,
-            counts_path_tracing_alone};
+      with_all_{
+          {world, Raised{Heuristic::Balance}, setup.samples_per_light_path, setup.merging, settings.aimed_emission},
+          lengths_,
+          eye_,
+          setup.shared},
+      without_merges_(with_all_),
+      of_path_(with_all_) {
+    without_merges_.mis.merging = of_path_.mis.merging = {};
+    of_path_.counts_path_tracing_alone = true;
+    of_path_tracing_ = follow_light(of_path_);
+    unmerged_ = follow_light(without_merges_);
+    all_ = setup.merging.merges() ? follow_light(with_all_) : unmerged_;
 }
 
 std::vector<SubpathVertex> ComparedSample::follow_light(const SubpathSample& sample) {
@@ -153,26 +151,24 @@ void ComparedSample::append_photons(Photons& photons) const {
 }
 
 void ComparedSample::compare_met(const EyeSubpaths& eye, ComparedLight& sum, LightOfPath& by_path) const {
-    const SubpathSample all = sample(setup_.merging);
-    const SubpathSample unmerged = sample({});
     for (std::size_t i = 0; i < eye.all.met.size(); ++i) {
         const Met& met = eye.all.met[i];
         const Material* const material = met.vertex.surface.material;
         const bool is_lamp = material != nullptr && material->emits;
         if (met.subpath.index == kDirectlySeen || (lamp_images_ && is_lamp && met.subpath.only_deltas)) continue;
         std::vector<StrategyLight> found;
-        light_met(all, met.subpath, met.vertex, met.arrived,
+        light_met(with_all_, met.subpath, met.vertex, met.arrived,
                   [&](const StrategyLight& light) { found.push_back(light); });
         if (found.empty()) continue;
         std::vector<double> of_bdpt;
         std::vector<double> of_path;
         const Met& other = eye.unmerged.met[i];
-        light_met(unmerged, other.subpath, other.vertex, other.arrived,
+        light_met(without_merges_, other.subpath, other.vertex, other.arrived,
                   [&](const StrategyLight& light) { of_bdpt.push_back(all_of(light.sums)); });
         // Path tracing has no strategy with s > 1: only `a`, which stands for s = 1, counts.
         Subpath sampled = other.subpath;
         sampled.departing.d = 0.0;
-        light_met(unmerged, sampled, other.vertex, {.a = other.arrived.a},
+        light_met(without_merges_, sampled, other.vertex, {.a = other.arrived.a},
                   [&](const StrategyLight& light) { of_path.push_back(all_of(light.sums)); });
         for (std::size_t k = 0; k < found.size(); ++k) {
             sum.add(compared(found[k], of_path[k], of_bdpt[k]));
@@ -182,48 +178,42 @@ void ComparedSample::compare_met(const EyeSubpaths& eye, ComparedLight& sum, Lig
 }
 
 void ComparedSample::compare_sampled(const EyeSubpaths& eye, ComparedLight& sum, LightOfPath& by_path) const {
-    const SubpathSample all = sample(setup_.merging);
-    const SubpathSample unmerged = sample({});
     for (std::size_t i = 0; i < eye.all.vertices.size(); ++i) {
-        const StrategyLight found = light_sampled(all, eye.all.vertices[i]);
+        const StrategyLight found = light_sampled(with_all_, eye.all.vertices[i]);
         if (is_black(found.weighted())) continue;
-        const StrategySums sums = light_sampled(unmerged, eye.unmerged.vertices[i]).sums;
+        const StrategySums sums = light_sampled(without_merges_, eye.unmerged.vertices[i]).sums;
         sum.add(compared(found, 1.0 + sums.fewer_from_light, all_of(sums)));
         by_path.add(found, 1.0 + sums.fewer_from_light);
     }
 }
 
 void ComparedSample::compare_connected(const EyeSubpaths& eye, ComparedLight& sum) const {
-    const SubpathSample all = sample(setup_.merging);
-    const SubpathSample unmerged = sample({});
-    const SubpathSample of_path = sample({}, true);
     for (std::size_t i = 0; i < eye.all.vertices.size(); ++i)
         for (std::size_t j = 0; j < all_.size(); ++j) {
-            const StrategyLight found = light_connected(all, eye.all.vertices[i], all_[j]);
+            const StrategyLight found = light_connected(with_all_, eye.all.vertices[i], all_[j]);
             if (is_black(found.weighted())) continue;
             sum.add(compared(
-                found, light_connected(of_path, eye.unmerged.vertices[i], of_path_tracing_[j]).sums.fewer_from_light,
-                all_of(light_connected(unmerged, eye.unmerged.vertices[i], unmerged_[j]).sums)));
+                found, light_connected(of_path_, eye.unmerged.vertices[i], of_path_tracing_[j]).sums.fewer_from_light,
+                all_of(light_connected(without_merges_, eye.unmerged.vertices[i], unmerged_[j]).sums)));
         }
 }
 
 void ComparedSample::compare_merged(const EyeSubpaths& eye, const PhotonMap& map, const Photons& photons,
                                     SampleWork& work, ComparedLight& sum) const {
-    const SubpathSample all = sample(setup_.merging);
     for (std::size_t i = 0; i < eye.all.vertices.size(); ++i) {
         const SubpathVertex& at = eye.all.vertices[i];
         if (!at.merging.merges) continue;
         SubpathVertex no_others = eye.unmerged.vertices[i];
         no_others.densities = {};
-        const double within = all.mis.merging.expected_within(all.mis.merging.radius(at.position));
-        light_merged(all, at, map, [&](const Photon& photon, const StrategyLight& light) {
+        const double within = with_all_.mis.merging.expected_within(with_all_.mis.merging.radius(at.position));
+        light_merged(with_all_, at, map, [&](const Photon& photon, const StrategyLight& light) {
             work.merges += 1.0;
             const auto scattered = at.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             const auto others = [&](const SubpathVertex& vertex, const SubpathDensities& of_photon) {
                 Photon with = photon;
                 with.a = static_cast<float>(of_photon.a);
                 with.b = static_cast<float>(of_photon.b);
-                return others_of_merge(all.mis, vertex, with, scattered, within);
+                return others_of_merge(with_all_.mis, vertex, with, scattered, within);
             };
             sum.add(compared(light, others(no_others, photons.of_path_tracing[place_of(photon)]),
                              others(eye.unmerged.vertices[i], photons.unmerged[place_of(photon)])));
@@ -234,8 +224,8 @@ void ComparedSample::compare_merged(const EyeSubpaths& eye, const PhotonMap& map
 ComparedLight ComparedSample::compare(const PhotonMap& map, const Photons& photons, SampleWork& work,
                                       const HearLight& hear) const {
     EyeSubpaths eye;
-    eye.unmerged = follow_eye(sample({}));
-    eye.all = setup_.merging.merges() ? follow_eye(sample(setup_.merging)) : eye.unmerged;
+    eye.unmerged = follow_eye(without_merges_);
+    eye.all = with_all_.mis.merging.merges() ? follow_eye(with_all_) : eye.unmerged;
     work.add({.eye_rays = eye.all.rays,
               .light_samples = eye.all.connectable,
               .light_rays = light_rays_,
@@ -254,14 +244,11 @@ ComparedLight ComparedSample::compare(const PhotonMap& map, const Photons& photo
     compare_merged(eye, map, photons, work, sum);
     sum.moments.back() = sum.light * sum.light;
 
-    const SubpathSample all = sample(setup_.merging);
-    const SubpathSample unmerged = sample({});
-    const SubpathSample of_path = sample({}, true);
     for (std::size_t j = 0; j < all_.size(); ++j) {
-        const auto found = light_at_lens(all, all_[j]);
+        const auto found = light_at_lens(with_all_, all_[j]);
         if (!found || is_black(found->weighted())) continue;
-        hear(compared(*found, light_at_lens(of_path, of_path_tracing_[j])->sums.fewer_from_light,
-                      all_of(light_at_lens(unmerged, unmerged_[j])->sums)),
+        hear(compared(*found, light_at_lens(of_path_, of_path_tracing_[j])->sums.fewer_from_light,
+                      all_of(light_at_lens(without_merges_, unmerged_[j])->sums)),
              found->film);
     }
     return sum;

@@ -57,6 +57,8 @@ class ComparedSample {
     /// Follows the light subpath of `eye`. Weights are those of the balance heuristic, whatever `settings` say.
     ComparedSample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
                    const BidirectionalSetup& setup);
+    ComparedSample(const ComparedSample&) = delete;
+    ComparedSample& operator=(const ComparedSample&) = delete;
 
     /// Holds a photon for all, and its densities without merges and for path tracing alone.
     struct Photons {
@@ -104,7 +106,6 @@ class ComparedSample {
         void add(const StrategyLight& found, double of_path);
     };
 
-    [[nodiscard]] SubpathSample sample(const Merging& merging, bool counts_path_tracing_alone = false) const;
     [[nodiscard]] std::vector<SubpathVertex> follow_light(const SubpathSample& sample);
     [[nodiscard]] EyeSubpath follow_eye(const SubpathSample& sample) const;
     void compare_met(const EyeSubpaths& eye, ComparedLight& sum, LightOfPath& by_path) const;
@@ -113,12 +114,11 @@ class ComparedSample {
     void compare_merged(const EyeSubpaths& eye, const PhotonMap& map, const Photons& photons, SampleWork& work,
                         ComparedLight& sum) const;
 
-    const World& world_;
     EyeSample eye_;
     PathLengths lengths_;
-    BidirectionalSetup setup_;
     bool lamp_images_ = true;
-    bool aims_ = false;
+    // With the strategies of `vcm`, of `bdpt`, and of path tracing alone.
+    SubpathSample with_all_, without_merges_, of_path_;
     double light_rays_ = 0.0;
     double light_vertices_ = 0.0;                 ///< that can be connected, before the subpath was cut short
     std::vector<SubpathVertex> all_;              ///< with the strategies of `vcm`

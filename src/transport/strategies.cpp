@@ -27,21 +27,8 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
     }
     const SurfacePoint& point = vertex.surface;
     if (const Rgb emitted = point.material->emits ? world.materials().emission(point, vertex.wo) : Rgb();
-        !is_black(emitted)) {
-        const std::uint32_t lamp = world.lights().at(point);
-        StrategySums sums;
-        if (!is_seen && lamp != kNone)
-            sums = sums_at_emitter(sample.mis, eye.from,
-                                   {.light = lamp,
-                                    .triangle = point.triangle,
-                                    .point = point.position,
-                                    .direction = vertex.wo,
-                                    .cos_light = dot(vertex.wo, point.geometric_normal)},
-                                   arrived);
-        else if (eye.is_direct && lamp != kNone)
-            sums = sums_at_seen_emitter(sample.mis, lamp, point.position, arrived);
-        add({throughput * emitted, sums});
-    }
+        !is_black(emitted))
+        add({throughput * emitted, sums_of_met_lamp(sample.mis, eye, point, vertex.wo, arrived)});
     // An unlit surface lights nothing.
     if (vertex.kind == Vertex::Kind::Unlit && eye.only_deltas)
         add({throughput * world.materials().unlit_color(point), {}});

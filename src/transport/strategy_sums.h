@@ -67,6 +67,23 @@ struct LightPointPdfs {
                               arrived.a};
 }
 
+/// Returns the sums for the emission along `wo` of a lamp that `eye` has met at `point`, with the densities `arrived`.
+[[nodiscard]] inline StrategySums sums_of_met_lamp(const MisContext& mis, const SubpathProgress& eye,
+                                                   const SurfacePoint& point, const Vec3f& wo,
+                                                   const SubpathDensities& arrived) {
+    const std::uint32_t light = mis.world.lights().at(point);
+    if (light == kNone) return {};
+    if (eye.index == kDirectlySeen)
+        return eye.is_direct ? sums_at_seen_emitter(mis, light, point.position, arrived) : StrategySums{};
+    return sums_at_emitter(mis, eye.from,
+                           {.light = light,
+                            .triangle = point.triangle,
+                            .point = point.position,
+                            .direction = wo,
+                            .cos_light = dot(wo, point.geometric_normal)},
+                           arrived);
+}
+
 /// Returns `sums_at_light` for a light that the ray has met infinitely far away. The vertex is a direction: its density
 /// is per solid angle on both sides, and so is that of the light.
 [[nodiscard]] inline StrategySums sums_from_afar(const MisContext& mis, const Vec3f& from, std::uint32_t light,

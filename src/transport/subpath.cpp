@@ -173,11 +173,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             if (surface.kind == Vertex::Kind::Unlit) break;
             if (surface.kind == Vertex::Kind::Boundary) {
                 // Connections pass none but clear boundaries.
-                if (!surface.surface.material->is_clear) {
-                    subpath.departing.pass_hidden();
-                    subpath.is_after_delta = true;
-                    subpath.is_direct = false;
-                }
+                if (!surface.surface.material->is_clear) subpath.pass_hidden();
                 pass_through(subpath, surface);
             } else if (!scatter_at_surface(sample, subpath, surface, densities, bounce, vertices)) {
                 break;

@@ -58,24 +58,12 @@ struct SubpathSample {
     }
 };
 
-/// Holds a subpath under way, between two of its vertices.
-struct Subpath {
+/// Holds a subpath under way.
+struct Subpath : SubpathProgress {
     SubpathEnd end = SubpathEnd::AtEye;
     std::optional<Emission> emission;  ///< with which a subpath from a light begins
     Ray ray;
-    Interior interior;     ///< the bodies that the ray is in
-    Rgb throughput{1.0f};  ///< without the weight of the wavelength
-    /// Multiplies the throughput for Russian roulette: eta² over the refractions of radiance, or one over what a
-    /// light began with.
-    float roulette_scale = 1.0f;
-    Vec3f from{0.0f};  ///< the vertex before
-    DepartingDensities departing;
-    int index = 1;  ///< index of the vertex to come
-    int edges = 1;  ///< edges of the path when its ray has hit; media, clear surfaces and hidden boundaries add none
-    bool is_dispersed = false;
-    bool only_deltas = true;
-    bool is_after_delta = false;  ///< a delta or a hidden boundary lies behind it
-    bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
+    Interior interior;  ///< the bodies that the ray is in
 
     [[nodiscard]] TransportMode mode() const { return mode_of(end); }
 };

@@ -1,42 +1,14 @@
 #include "wave/camera_wave.h"
 
+#include "wave/number_pairs.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 namespace etendue {
 
 namespace {
-
-/// Random numbers of a few camera rays, drawn together.
-class CameraNumbers {
-  public:
-    static constexpr std::size_t kCapacity = 64;
-
-    /// Draws a pair of `dimension` for each of the samples, at most kCapacity.
-    void draw(SampleSequence sequence, std::span<const CameraSample> samples, std::uint32_t dimension) {
-        draw(sequence, samples, dimension, [](SampleKey key) { return key; });
-    }
-    /// Draws a pair for each of the samples by the key that `key_of` returns for theirs.
-    template <typename KeyOf>
-    void draw(SampleSequence sequence, std::span<const CameraSample> samples, std::uint32_t dimension,
-              const KeyOf& key_of) {
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            const SampleKey key = key_of(samples[i].key);
-            pixel_seeds_[i] = key.pixel_seed;
-            indices_[i] = key.index;
-        }
-        const auto part = [&](auto& all) { return std::span(all).first(samples.size()); };
-        sample_2d(sequence, part(pixel_seeds_), part(indices_), dimension, part(x_), part(y_));
-    }
-    [[nodiscard]] Vec2f operator[](std::size_t i) const { return {x_[i], y_[i]}; }
-
-  private:
-    std::array<std::uint32_t, kCapacity> pixel_seeds_;
-    std::array<std::uint32_t, kCapacity> indices_;
-    std::array<float, kCapacity> x_;
-    std::array<float, kCapacity> y_;
-};
 
 /// The pixel of the job's tile that comes `k`-th: in bands of four rows, column by column, so that sixteen pixels, as
 /// many as a packet has rays, are a square.
@@ -48,39 +20,6 @@ std::uint32_t pixel_in_order(const TileJob& job, std::uint32_t k) {
     const std::uint32_t rows = std::min(kRows, height - top);
     const std::uint32_t in_band = k - top * width;
     return (top + in_band % rows) * width + in_band / rows;
-}
-
-/// Makes the camera rays of at most CameraNumbers::kCapacity samples, whose keys are known, as are their pixels'
-/// `positions` in the full image.
-void generate_few(const World& world, const TileJob& job, std::span<CameraSample> samples,
-                  std::span<const Vec2i> positions, std::span<Ray> rays) {
-    const Vec2f to_film{1.0f / static_cast<float>(job.full_width), 1.0f / static_cast<float>(job.full_height)};
-    CameraNumbers film;
-    CameraNumbers lens;
-    CameraNumbers time;
-    film.draw(job.sequence, samples, kFilmDimension);
-    if (world.traits().has_lens) lens.draw(job.sequence, samples, kLensDimension);
-    if (world.traits().has_motion)
-        time.draw(job.sequence, samples, kTimeDimension, [&](SampleKey key) { return shared_key(job, key); });
-    std::array<Vec2f, CameraNumbers::kCapacity> on_film;
-    std::array<Vec2f, CameraNumbers::kCapacity> on_lens;
-    std::array<float, CameraNumbers::kCapacity> times;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const PixelFilter::Sample filtered = job.filter->sample(film[i]);
-        on_film[i] = {(static_cast<float>(positions[i].x) + 0.5f + filtered.offset.x) * to_film.x,
-                      (static_cast<float>(positions[i].y) + 0.5f + filtered.offset.y) * to_film.y};
-        on_lens[i] = world.traits().has_lens ? lens[i] : Vec2f(0.0f);
-        times[i] = world.traits().has_motion ? time[i].x : 0.0f;
-        samples[i].weight = filtered.weight;
-        samples[i].lens = on_lens[i];
-    }
-    const auto part = [&](auto& all) { return std::span(all).first(samples.size()); };
-    world.camera().generate_rays(part(on_film), part(on_lens), part(times), rays);
-    if (world.traits().has_blind_film)
-        for (std::size_t i = 0; i < samples.size(); ++i) samples[i].is_blind = !(rays[i].t_max > 0.0f);
-    if (!world.traits().has_transparency) return;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        rays[i].alpha_key = sample_bits(samples[i].key, kCameraAlphaDimension);
 }
 
 /// Offers `counters` the contributions in `light` that are bright enough for the list of the brightest.
@@ -145,53 +84,65 @@ void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t s
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays, SampleOrder order) {
-    if (rays.empty()) return;
     const bool by_pixel = order == SampleOrder::PixelByPixel;
     const std::size_t pixels = job.pixels.empty() ? job.rect.area() : job.pixels.size();
-    std::size_t which = by_pixel ? first / job.sample_count : first % pixels;
-    auto round = static_cast<std::uint32_t>(by_pixel ? first % job.sample_count : first / pixels);
+    std::vector<Vec2i> positions(rays.size());
     PixelJob pixel;
-    Vec2i position;
+    Vec2i position(0, 0);
     std::uint32_t seed = 0;
-    const auto enter_pixel = [&] {
-        pixel = job.pixels.empty() ? PixelJob{pixel_in_order(job, static_cast<std::uint32_t>(which)), job.first_sample}
-                                   : job.pixels[which];
-        position = pixel_position(job, pixel.pixel);
-        seed =
-            make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y));
-    };
-    const auto advance = [&] {
-        if (by_pixel) {
-            if (++round < job.sample_count) return;
-            round = 0;
-            ++which;
-        } else if (++which == pixels) {
-            which = 0;
-            ++round;
+    std::size_t entered = pixels;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t which = by_pixel ? (first + i) / job.sample_count : (first + i) % pixels;
+        const std::size_t round = by_pixel ? (first + i) % job.sample_count : (first + i) / pixels;
+        if (which != entered) {
+            pixel = job.pixels.empty()
+                        ? PixelJob{pixel_in_order(job, static_cast<std::uint32_t>(which)), job.first_sample}
+                        : job.pixels[which];
+            position = pixel_position(job, pixel.pixel);
+            seed = make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x),
+                                   static_cast<std::uint32_t>(position.y));
+            entered = which;
         }
-        enter_pixel();
-    };
-    enter_pixel();
-    std::array<Vec2i, CameraNumbers::kCapacity> positions;
-    for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
-        const auto few = samples.subspan(begin, std::min(CameraNumbers::kCapacity, rays.size() - begin));
-        for (std::size_t i = 0; i < few.size(); ++i) {
-            if (begin + i > 0) advance();
-            positions[i] = position;
-            few[i].pixel = pixel.pixel;
-            few[i].key = {seed, pixel.first_sample + round};
-        }
-        generate_few(world, job, few, positions, rays.subspan(begin, few.size()));
+        positions[i] = position;
+        samples[i].pixel = pixel.pixel;
+        samples[i].key = {seed, pixel.first_sample + static_cast<std::uint32_t>(round)};
     }
+    generate_camera_rays(world, job, positions, samples, rays);
 }
 
 void generate_camera_rays(const World& world, const TileJob& job, std::span<const Vec2i> positions,
                           std::span<CameraSample> samples, std::span<Ray> rays) {
-    for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
-        const std::size_t count = std::min(CameraNumbers::kCapacity, rays.size() - begin);
-        generate_few(world, job, samples.subspan(begin, count), positions.subspan(begin, count),
-                     rays.subspan(begin, count));
+    const Vec2f to_film{1.0f / static_cast<float>(job.full_width), 1.0f / static_cast<float>(job.full_height)};
+    SampleKeys keys;
+    SampleKeys shared;
+    for (const CameraSample& sample : samples) {
+        keys.push_back(sample.key);
+        if (world.traits().has_motion) shared.push_back(shared_key(job, sample.key));
     }
+    NumberPairs film;
+    NumberPairs lens;
+    NumberPairs time;
+    film.draw(job.sequence, keys, kFilmDimension);
+    if (world.traits().has_lens) lens.draw(job.sequence, keys, kLensDimension);
+    if (world.traits().has_motion) time.draw(job.sequence, shared, kTimeDimension);
+    std::vector<Vec2f> on_film(samples.size());
+    std::vector<Vec2f> on_lens(samples.size(), Vec2f(0.0f));
+    std::vector<float> times(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const PixelFilter::Sample filtered = job.filter->sample(film[i]);
+        on_film[i] = {(static_cast<float>(positions[i].x) + 0.5f + filtered.offset.x) * to_film.x,
+                      (static_cast<float>(positions[i].y) + 0.5f + filtered.offset.y) * to_film.y};
+        if (world.traits().has_lens) on_lens[i] = lens[i];
+        if (world.traits().has_motion) times[i] = time[i].x;
+        samples[i].weight = filtered.weight;
+        samples[i].lens = on_lens[i];
+    }
+    world.camera().generate_rays(on_film, on_lens, times, rays);
+    if (world.traits().has_blind_film)
+        for (std::size_t i = 0; i < samples.size(); ++i) samples[i].is_blind = !(rays[i].t_max > 0.0f);
+    if (!world.traits().has_transparency) return;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        rays[i].alpha_key = sample_bits(samples[i].key, kCameraAlphaDimension);
 }
 
 bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,

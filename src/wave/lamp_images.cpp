@@ -41,8 +41,7 @@ const LampPixels& LampImages::region(int x, int y) const {
 bool LampImages::contain(const Vec2f& film) const {
     const int x = region_of(static_cast<int>(std::floor(film.x)));
     const int y = region_of(static_cast<int>(std::floor(film.y)));
-    const bool is_covered = x >= regions_.x0 && x < regions_.x1 && y >= regions_.y0 && y < regions_.y1;
-    return is_covered && region(x, y).contain(film);
+    return regions_.contains(x, y) && region(x, y).contain(film);
 }
 
 void LampImages::for_each_in(const PixelRect& rect,
@@ -52,9 +51,7 @@ void LampImages::for_each_in(const PixelRect& rect,
         for (int x = asked.x0; x < asked.x1; ++x) {
             const LampPixels& found = region(x, y);
             for (const LampPixel& pixel : found.all())
-                if (pixel.pixel.x >= rect.x0 && pixel.pixel.x < rect.x1 && pixel.pixel.y >= rect.y0 &&
-                    pixel.pixel.y < rect.y1)
-                    visit(found, pixel);
+                if (rect.contains(pixel.pixel.x, pixel.pixel.y)) visit(found, pixel);
         }
 }
 

@@ -29,10 +29,6 @@ constexpr float kEven = 2.0f;
     return {rect.x0 - by, rect.y0 - by, rect.x1 + by, rect.y1 + by};
 }
 
-[[nodiscard]] bool contains(const PixelRect& rect, const Vec2i& pixel) {
-    return pixel.x >= rect.x0 && pixel.x < rect.x1 && pixel.y >= rect.y0 && pixel.y < rect.y1;
-}
-
 /// Index of `pixel` in `rect`, row by row.
 [[nodiscard]] std::size_t index_in(const PixelRect& rect, const Vec2i& pixel) {
     return static_cast<std::size_t>(pixel.y - rect.y0) * static_cast<std::size_t>(rect.width()) +
@@ -144,7 +140,7 @@ Vec2f LampsInView::film_position(const CameraSample& sample) const {
 }
 
 bool LampsInView::has_sample(const Vec2i& pixel, std::uint32_t sample) const {
-    if (!contains(job_->rect, pixel)) return false;
+    if (!job_->rect.contains(pixel.x, pixel.y)) return false;
     const std::uint32_t first = first_samples_[index_in(job_->rect, pixel)];
     return first != kNone && sample >= first && sample - first < job_->sample_count;
 }
@@ -198,7 +194,7 @@ void LampsInView::trace_neighbours(RenderCounters& counters) {
     std::vector<std::uint32_t> needed;
     for_each_pixel(around_, [&](const Vec2i& pixel) {
         // Of most tiles, all that is missing is beside them.
-        if (job_->pixels.empty() && contains(job_->rect, pixel)) return;
+        if (job_->pixels.empty() && job_->rect.contains(pixel.x, pixel.y)) return;
         needed.clear();
         for_each_pixel(intersection(neighbours(pixel), job_->rect), [&](const Vec2i& target) {
             const std::uint32_t first = first_samples_[index_in(job_->rect, target)];

@@ -21,8 +21,18 @@ struct RenderCounters {
 
     static constexpr std::size_t kMaxLocated = 8;
 
-    void drop(const DroppedSample& sample);
-    void add(const RenderCounters& other);
+    void drop(const DroppedSample& sample) {
+        ++dropped;
+        if (first_dropped.size() < kMaxLocated) first_dropped.push_back(sample);
+    }
+    void add(const RenderCounters& other) {
+        rays.add(other.rays);
+        samples += other.samples;
+        dropped += other.dropped;
+        for (const DroppedSample& sample : other.first_dropped)
+            if (first_dropped.size() < kMaxLocated) first_dropped.push_back(sample);
+        brightest.add(other.brightest);
+    }
 };
 
 }  // namespace etendue

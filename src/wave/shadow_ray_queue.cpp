@@ -23,8 +23,8 @@ void ShadowRayQueue::make_room() {
     for (auto& column : bits_) column.resize(2 * needed);
 }
 
-void ShadowRayQueue::push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
-                          std::span<const ExpressionShare> shares) {
+void ShadowRayQueue::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
+                               std::span<const ExpressionShare> shares) {
     if (!shares.empty()) shares_.insert(shares_.end(), shares.begin(), shares.end());
     if (rows_ == Wide::kWidth) flush();
     // Filled in where it lies: a copy of what was just written, number by number, would wait until all of that is in
@@ -38,9 +38,9 @@ void ShadowRayQueue::push(const Ray& ray, std::uint32_t slot, const Rgb& value, 
     row[kDirectionZ] = ray.direction.z;
     row[kTMax] = ray.t_max;
     row[kTime] = ray.time;
-    row[kRed] = value.r;
-    row[kGreen] = value.g;
-    row[kBlue] = value.b;
+    row[kRed] = contribution.r;
+    row[kGreen] = contribution.g;
+    row[kBlue] = contribution.b;
     const auto set_bits = [&](BitColumn column, std::uint32_t bits) {
         row[std::size_t{kFloatColumns} + column] = std::bit_cast<float>(bits);
     };
@@ -61,11 +61,6 @@ void ShadowRayQueue::flush() {
     for (std::size_t column = 0; column < kBitColumns; ++column)
         WideBits::of(row[kFloatColumns + column]).store_unaligned(&bits_[column][count_]);
     count_ += std::exchange(rows_, 0);
-}
-
-void ShadowRayQueue::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
-                               std::span<const ExpressionShare> shares) {
-    push(ray, slot, contribution, kind, shares);
 }
 
 void ShadowRayQueue::to_sample(const WideShadowRays& connections, WideMask which) {
@@ -93,7 +88,7 @@ void ShadowRayQueue::to_sample(const WideShadowRays& connections, WideMask which
 
 void ShadowRayQueue::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
                              std::span<const ExpressionShare> shares) {
-    push(ray, slot, splat.value, kind, shares);
+    to_sample(ray, slot, splat.value, kind, shares);
     places_.push_back({splat.position, splat.depth});
 }
 

@@ -100,8 +100,6 @@ class ShadowRayQueue {
     void make_room();
     /// Moves rows to where columns end.
     void flush();
-    void push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
-              std::span<const ExpressionShare> shares);
     [[nodiscard]] RayColumns rays() const;
 
     RayKind kind_;

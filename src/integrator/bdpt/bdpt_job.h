@@ -8,11 +8,6 @@
 
 namespace etendue {
 
-/// Returns the weight of a path among all strategies that could have made it, if settings ask for weights.
-[[nodiscard]] inline float strategy_weight(const IntegratorSettings& settings, const StrategySums& sums) {
-    return settings.weighted ? static_cast<float>(sums.weight()) : 1.0f;
-}
-
 /// True if a strategy (0, t), by which eye subpaths meet lamps, has a part in the image.
 [[nodiscard]] inline bool meets_lamps(const IntegratorSettings& settings) {
     return !settings.strategy || (settings.strategy->s == 0 && *settings.strategy != kMerges);
@@ -31,8 +26,7 @@ struct BdptJob : SubpathJob {
         return !settings.strategy || *settings.strategy == strategy;
     }
     [[nodiscard]] WeightRule rule() const { return {mis.raised, settings.weighted}; }
-    /// Returns `strategy_weight` by the settings.
-    [[nodiscard]] float weight(const StrategySums& sums) const { return strategy_weight(settings, sums); }
+    [[nodiscard]] float weight(const StrategySums& sums) const { return rule().weight(sums); }
 };
 
 }  // namespace etendue

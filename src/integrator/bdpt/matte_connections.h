@@ -16,6 +16,10 @@ struct WeightRule {
     Raised raised;
     bool weighted = true;  ///< if not, each counts in full
 
+    /// Returns the weight of a path among all strategies that could have made it, [0, 1].
+    [[nodiscard]] float weight(const StrategySums& sums) const {
+        return weighted ? static_cast<float>(sums.weight()) : 1.0f;
+    }
     /// Returns the weight of a connection, [0, 1], from the densities, or ratios of them, that `sums_of_connection`
     /// takes.
     template <typename T>

@@ -51,20 +51,8 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const World& world = parts_.job.world();
     const Rgb emitted = world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
-    StrategySums sums;
-    const std::uint32_t light = world.lights().at(point);
-    const float cos_light = -dot(direction, point.geometric_normal);
-    if (state.index > kDirectlySeen && light != kNone)
-        sums = sums_at_emitter(parts_.job.mis, state.from,
-                               {.light = light,
-                                .triangle = point.triangle,
-                                .point = point.position,
-                                .direction = -direction,
-                                .cos_light = cos_light},
-                               arrived);
-    else if (state.is_direct && light != kNone)
-        sums = sums_at_seen_emitter(parts_.job.mis, light, point.position, arrived);
-    add(state, emitted, sums, parts_.eye.vertices().words().surface_source(point));
+    add(state, emitted, sums_of_met_lamp(parts_.job.mis, state, point, -direction, arrived),
+        parts_.eye.vertices().words().surface_source(point));
 }
 
 void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point) {

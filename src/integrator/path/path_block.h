@@ -4,7 +4,6 @@
 #include "bsdf/bsdf.h"
 #include "integrator/path/block_lanes.h"
 #include "integrator/path/glossy_lanes.h"
-#include "integrator/path/textured_lanes.h"
 #include "integrator/path/wave_paths.h"
 #include "wave/lane_list.h"
 #include "wave/number_pairs.h"

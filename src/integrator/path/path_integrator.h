@@ -6,7 +6,6 @@
 #pragma once
 
 #include "integrator/integrator.h"
-#include "transport/path.h"
 
 namespace etendue {
 

@@ -197,7 +197,7 @@ void PathLight::add_environment(const PathContext& context) {
     for (std::size_t m = 0; m < meeting.size(); ++m) {
         const std::size_t i = block_.first + meeting[m];
         const float weight = weight_from_afar(context, i, world.environment().light(), met[m].pdf_solid_angle);
-        add(i, met[m].radiance * weight, paths_.words.environment_source());
+        add(i, met[m].radiance * weight, paths_.words.light_source(world, world.environment().light()));
         if (context.job.profile != nullptr && context.rays > 1 && !is_black(met[m].radiance))
             ++context.job.profile->use().bsdf_met_light;
     }

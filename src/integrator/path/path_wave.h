@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/ray.h"
-#include "integrator/path/path_integrator.h"
+#include "integrator/integrator.h"
 #include "integrator/path/path_light.h"
 #include "integrator/path/path_places.h"
 #include "integrator/path/path_scattering.h"

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "integrator/path/path_columns.h"
-#include "integrator/path/path_context.h"
+#include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
 #include "wave/aov/path_words.h"
 #include "wave/profile/wave_profile.h"
+#include "wave/tile_job.h"
+#include "world/world.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +15,17 @@
 #include <vector>
 
 namespace etendue {
+
+/// Says for what, and how, the paths of a wave are traced, and how far they are.
+struct PathContext {
+    const World& world;
+    const TileJob& job;
+    const IntegratorSettings& settings;
+    int rays;  ///< rays that each path has traced; its edges, if the World has no bodies
+
+    /// Returns true if paths sample lights, and do not find them by chance only.
+    [[nodiscard]] bool samples_lights() const { return settings.light_samples > 0; }
+};
 
 /// Adds to the columns of all paths what only some scenes and renders ask for, and the camera samples they belong to.
 struct WavePaths : PathColumns {

@@ -72,9 +72,6 @@ class PathWords {
     [[nodiscard]] AovSet::Source surface_source(const SurfacePoint& point) const {
         return are_followed() ? aovs_->source_of_instance(point.instance) : AovSet::Source{};
     }
-    [[nodiscard]] AovSet::Source environment_source() const {
-        return are_followed() ? aovs_->environment_source() : AovSet::Source{};
-    }
     [[nodiscard]] AovSet::Source light_source(const World& world, std::uint32_t light) const {
         return are_followed() ? aovs_->source_of_light(world, light) : AovSet::Source{};
     }

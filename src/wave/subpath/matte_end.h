@@ -88,7 +88,6 @@ inline void store_ends(const BasicMatteEnd<Wide>& from, const std::array<MatteEn
 class MatteEndsOfBlock {
   public:
     void set(std::size_t lane, const MatteEnd& end) { ends_[lane] = &end; }
-    [[nodiscard]] const MatteEnd& operator[](std::size_t lane) const { return *ends_[lane]; }
     /// Loads lanes from `first` on; those from `count` on repeat the last lane before, as they may have been set for a
     /// block whose ends are gone.
     [[nodiscard]] BasicMatteEnd<Wide> load(std::size_t first, std::size_t count) const {

@@ -34,14 +34,25 @@ struct SubpathJob {
 
     [[nodiscard]] const World& world() const { return mis.world; }
     /// Returns the wavelength of the path of the sample in `slot`, if it needs one; both subpaths have the same.
-    [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
+    [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const {
+        return world().spectral_response().sample(
+            sample_2d(job.sequence, shared_key(job, samples[slot].key), kSubpathWavelengthDimension).x);
+    }
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {
         return is_dispersed ? wavelength(slot).weight : Rgb(1.0f);
     }
     /// False if such numbers mean nothing in this World.
-    [[nodiscard]] bool needs(SubpathEnd end, SubpathDimension which) const;
+    [[nodiscard]] bool needs(SubpathEnd end, SubpathDimension which) const {
+        if (which == SubpathDimension::Medium) return world().traits().has_scattering_bodies;
+        if (which != SubpathDimension::LightChoice) return true;
+        return end == SubpathEnd::AtEye ? world().traits().chooses_lights : world().traits().has_lens;
+    }
     /// Returns the alpha key of rays that connect the vertex of this index; 0 if nothing is transparent.
-    [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
+    [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
+        if (!world().traits().has_transparency) return 0;
+        // Another one than that of the subpath's own ray.
+        return ~sample_bits(samples[slot].key, subpath_dimension(end, index, SubpathDimension::Alpha));
+    }
     /// Returns `ray`, of a connection, at the time of the sample in `slot`.
     [[nodiscard]] Ray timed(Ray ray, std::uint32_t slot) const {
         ray.time = camera_rays[slot].time;

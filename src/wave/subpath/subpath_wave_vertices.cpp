@@ -8,11 +8,7 @@ namespace etendue {
 void SubpathWave::pass_hidden(std::size_t i, const ShadedSubpath& path) {
     const SurfacePoint& point = path.point;
     // Connections pass none but clear boundaries.
-    if (!point.material->is_clear) {
-        states_[i].departing.pass_hidden();
-        states_[i].is_after_delta = true;
-        states_[i].is_direct = false;
-    }
+    if (!point.material->is_clear) states_[i].pass_hidden();
     Ray& ray = rays_[i];
     interiors_[i] = beyond(*path.crossing, point, ray.direction);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);

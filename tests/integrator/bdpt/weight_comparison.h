@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integrator/integrator.h"
-#include "transport/heuristic.h"
+#include "transport/mis.h"
 #include "world/world.h"
 
 #include <cstddef>

@@ -1,5 +1,4 @@
-#include "integrator/debug/albedo_integrator.h"
-#include "integrator/debug/normals_integrator.h"
+#include "integrator/debug/debug_integrators.h"
 #include "integrator/render_tile.h"
 #include "world/test_scene.h"
 
