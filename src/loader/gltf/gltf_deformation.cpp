@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace etendue {
 
@@ -66,17 +67,23 @@ void morph(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, st
 
 void skin(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, std::span<const Mat4d> joints) {
     if (deformation.influences == 0) return;
+    std::vector<bool> is_mirrored(primitive.positions.size());
     for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
         const Mat4d blended = blend(deformation, v, joints);
         const Mat4f matrix = to_float(blended);
+        is_mirrored[v] = blended.determinant() < 0.0;
         primitive.positions[v] = transform_point(matrix, primitive.positions[v]);
         if (!primitive.normals.empty())
             primitive.normals[v] = transform_normal(to_float(blended.inverse()), primitive.normals[v]);
         if (primitive.tangents.empty()) continue;
         Vec4f& t = primitive.tangents[v];
         const Vec3f moved = transform_vector(matrix, {t.x, t.y, t.z});
-        t = {moved.x, moved.y, moved.z, t.w};
+        t = {moved.x, moved.y, moved.z, is_mirrored[v] ? -t.w : t.w};
     }
+    // Joints that mirror turn the winding around; the front stays the front (glTF 2.0, section 3.7.4).
+    for (auto& triangle : primitive.triangles)
+        if (std::ranges::count_if(triangle, [&](std::uint32_t v) { return is_mirrored[v]; }) > 1)
+            std::swap(triangle[1], triangle[2]);
 }
 
 bool finish_deformation(PrimitiveDesc& primitive) {

@@ -45,8 +45,7 @@ bool check_faces(const CubeMapDesc& cube, int size, const SceneDesc& scene, cons
 void read_environment(const GltfDocument& document, TextureReader& textures, SceneDesc& scene, ProblemList& problems) {
     const tinygltf::Model& model = document.model;
     if (model.scenes.empty()) return;
-    const std::size_t scene_index = model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
-    const tinygltf::Value* reference = find_extension(model.scenes[scene_index].extensions, kImageBasedLights);
+    const tinygltf::Value* reference = find_extension(model.scenes[scene.shown_scene].extensions, kImageBasedLights);
     if (reference == nullptr) return;
     const int index = integer_or(*reference, "light", 0);
     const tinygltf::Value& light = model.extensions.at(kImageBasedLights).Get("lights").Get(index);

@@ -86,9 +86,9 @@ SweptSpace GltfLoader::load(const std::filesystem::path& file, const LoadOptions
         apply_pointers(sampler->pointer_values(*settings.shown_time() + settings.shutter.middle()), document, problems);
     TextureReader textures(document, accessors, scene, problems);
     read_materials(document, textures, scene, problems);
-    read_environment(document, textures, scene, problems);
     const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     read_nodes(document, accessors, deformations, sampler ? &*sampler : nullptr, settings, scene, problems);
+    read_environment(document, textures, scene, problems);
     read_extras(document, scene);
     const bool is_complete = !scene.cameras.empty() && (!scene.lights.empty() || scene.environment.enabled);
     if (!settings.frame || !sampler || is_complete || problems.has_errors()) return {};

@@ -319,6 +319,22 @@ TEST(Skin, WeightsNeedNotAddUpToOne) {
     EXPECT_EQ(loaded.scene.meshes[mesh].primitives[0].positions[2], Vec3f(0, 3, 1)) << "between the two joints";
 }
 
+TEST(Skin, KeepsItsFrontWhereJointsMirror) {
+    GltfBuilder builder = skinned();
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+        builder.floats({0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f}, 3);
+    builder.json["nodes"].push_back({{"scale", {-1, 1, 1}}, {"children", {0, 1}}});
+    builder.json["scenes"][0]["nodes"] = {3};
+    const LoadedScene loaded = builder.load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const auto mesh = static_cast<std::size_t>(loaded.scene.instances.at(0).mesh.index);
+    const PrimitiveDesc& p = loaded.scene.meshes[mesh].primitives[0];
+    const auto& [a, b, c] = p.triangles.at(0);
+    const Vec3f front = cross(p.positions[b] - p.positions[a], p.positions[c] - p.positions[a]);
+    EXPECT_GT(front.z, 0.0f) << "a mirror across x turns no front around";
+    EXPECT_GT(dot(p.normals[0], front), 0.0f) << "else the smooth normals are of no use";
+}
+
 TEST(Skin, WhatCannotBeReadIsAnError) {
     const auto error_of = [](const auto& spoil) {
         GltfBuilder builder = skinned();

@@ -37,6 +37,18 @@ TEST(ImageBasedLight, OfAnotherSceneIsNotShown) {
     EXPECT_FALSE(builder.load().scene.environment.enabled);
 }
 
+TEST(ImageBasedLight, BelongsToTheSceneThatIsChosen) {
+    const TempDir dir;
+    GltfBuilder builder = with_cube();
+    builder.json["scenes"][0]["name"] = "lit";
+    builder.json["scenes"].push_back({{"name", "dark"}, {"nodes", {0}}});
+    builder.write(dir);
+    dir.write("render.json", R"({"scene_name": "dark"})");
+    EXPECT_FALSE(inspect_scene(dir.path()).scene.environment.enabled);
+    dir.write("render.json", R"({"scene_name": "lit"})");
+    EXPECT_TRUE(inspect_scene(dir.path()).scene.environment.enabled);
+}
+
 TEST(ImageBasedLight, GivesWayToRenderJson) {
     const TempDir dir;
     with_cube().write(dir);
