@@ -1,9 +1,9 @@
 #include "batch/batch_books.h"
 
-#include "core/error.h"
 #include "core/log.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace etendue {
 
@@ -12,7 +12,7 @@ BatchBooks::BatchBooks(const std::filesystem::path& output) : page_(output), led
 void BatchBooks::try_to(const std::function<void()>& write) {
     try {
         write();
-    } catch (const IoError& error) {
+    } catch (const std::exception& error) {
         if (are_kept_) log_error("error: {}; the batch goes on all the same", error.what());
         are_kept_ = false;
     }

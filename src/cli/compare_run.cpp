@@ -248,14 +248,14 @@ ExitCode run_compare(const CompareArguments& arguments) {
                                  .first_seed = plan.first_seed,
                                  .quiet = arguments.quiet,
                                  .watcher = page ? &*page : nullptr};
-    if (!arguments.quiet)
-        for (const std::string& note : plan.reference.notes) log_warning("note: {}", note);
     const std::vector<std::filesystem::path> files = prepare_report_files(arguments, plan.variants);
     const PixelRect& window = plan.variants.front().sampling.window;
     ImageStore store(arguments.output, window.width(), window.height(), 3);
     const MeasureContext context{colors, threads, store};
     const std::vector<NamedRegion> of_classes =
         regions_of_classes(*plan.of_insets, plan.insets, context, plan.reference.notes);
+    if (!arguments.quiet)
+        for (const std::string& note : plan.reference.notes) log_warning("note: {}", note);
     const std::vector<VariantRenders> renders = render_variants(plan.variants, request, store, threads);
     if (page) page->enter(interrupt_requested() ? "stopped" : "measure");
     if (renders.front().seeds.empty()) return interrupt_exit_code();

@@ -1,3 +1,4 @@
+#include "core/shown_text.h"
 #include "report/comparison_files.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ constexpr std::array<PlotColor, 6> kVariantColors{{{0.0, 0.447, 0.698},
                                                    {0.659, 0.271, 0.498},
                                                    {0.502, 0.4, 0.0},
                                                    {0.333, 0.357, 0.388}}};
-constexpr std::size_t kLongestName = 28;  // characters of a legend
+constexpr std::size_t kLongestName = 28;  // bytes of a legend
 
 const PlotColor& color_of(std::size_t variant) {
     return kVariantColors[variant % kVariantColors.size()];
@@ -255,7 +256,8 @@ class ConvergencePlot {
         std::vector<std::string> names;
         for (const PlotSeries& series : series_) {
             const std::string& name = report_.variants[series.variant].name;
-            names.push_back(name.size() > kLongestName ? name.substr(0, kLongestName - 3) + "..." : name);
+            names.push_back(name.size() > kLongestName ? fmt::format("{}...", first_characters(name, kLongestName - 3))
+                                                       : name);
             widest = std::max(widest, text_width(names.back(), kFontSize));
         }
         const double width = widest + 19.0;

@@ -147,7 +147,7 @@ std::string to_tex(const ComparisonReport& report) {
         "% \\usepackage{{booktabs}} in the preamble, their lines are those of that package.\n"
         "\\providecommand{{\\toprule}}{{\\hline}}\n\\providecommand{{\\midrule}}{{\\hline}}\n"
         "\\providecommand{{\\bottomrule}}{{\\hline}}\n\n% Means and standard deviations over {} seeds.\n{}",
-        report.program, report.command, report.seeds, tex_table(columns_of(variants), variants));
+        report.program, shown_text(report.command), report.seeds, tex_table(columns_of(variants), variants));
     if (report.pairs.empty()) return text;
     const auto pairs = pair_rows(report);
     return text + fmt::format(

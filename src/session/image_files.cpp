@@ -63,16 +63,18 @@ std::map<int, std::filesystem::path> frames_before(const std::filesystem::path& 
     if (!place) return before;
     const std::string before_number = name.substr(0, place->begin);
     const std::string after_number = name.substr(place->end);
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(absolute(statistics).parent_path(), ignored)) {
-        const std::string other = entry.path().filename().string();
+    std::error_code code;
+    const std::filesystem::path directory = absolute(statistics).parent_path();
+    for (std::filesystem::directory_iterator entry(directory, code), end; !code && entry != end;
+         entry.increment(code)) {
+        const std::string other = entry->path().filename().string();
         if (other.size() <= before_number.size() + after_number.size() || !other.starts_with(before_number) ||
             !other.ends_with(after_number))
             continue;
         int number = 0;
         const char* const last = other.data() + other.size() - after_number.size();
         const auto [read_to, problem] = std::from_chars(other.data() + before_number.size(), last, number);
-        if (problem == std::errc() && read_to == last && number < frame) before.emplace(number, entry.path());
+        if (problem == std::errc() && read_to == last && number < frame) before.emplace(number, entry->path());
     }
     return before;
 }
@@ -84,7 +86,7 @@ std::optional<float> exposure_of_sequence(const std::filesystem::path& statistic
     for (const auto& [number, path] : frames_before(statistics, frame)) {
         std::ifstream file(path);
         const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-        if (!json.is_object() || !json.contains("exposure") || json.value("scene", "") != scene) continue;
+        if (!json.is_object() || !json.contains("exposure") || json.value("scene", nlohmann::json()) != scene) continue;
         const nlohmann::json& exposure = json.at("exposure");
         if (exposure.is_object() && exposure.contains("chosen") && exposure.at("chosen").is_string() &&
             exposure.contains("stops") && exposure.at("stops").is_number())

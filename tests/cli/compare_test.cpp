@@ -140,10 +140,12 @@ TEST_F(Compare, RefusesWhatWouldChangeNothing) {
 }
 
 TEST_F(Compare, LooksAtClassesOfLight) {
-    ASSERT_EQ(compare({"--spp", "1", "--seeds", "1", "--insets", "specular_direct,volume_direct", "--region",
-                       "a:0,0,2,2", "--strategies-depth", "0"})
-                  .exit_code,
-              0);
+    const ProgramResult result =
+        compare_aloud({"--spp", "1", "--seeds", "1", "--insets", "specular_direct,volume_direct", "--region",
+                       "a:0,0,2,2", "--strategies-depth", "0"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("note: the image has no light of the class 'volume_direct'"), std::string::npos)
+        << result.err;
     const json report = this->report();
     ASSERT_EQ(report["regions"].size(), 2u);
     EXPECT_EQ(report["regions"][1]["name"], "specular_direct");

@@ -130,6 +130,10 @@ TEST_F(FirstPictures, FramesHaveTheExposureOfTheFirst) {
     write_file(work_ / "f.0000.json", first.dump());
     (void)render({scene, "--frames", "2:2", "-o", "f.exr", "--force"});
     EXPECT_EQ(exposure_of("f.0002").at("stops"), -3.5);
+    // A file of somebody else's.
+    write_file(work_ / "f.-001.json", R"({"exposure": {}, "scene": 3})");
+    (void)render({scene, "--frames", "2:2", "-o", "f.exr", "--force"});
+    EXPECT_EQ(exposure_of("f.0002").at("stops"), -3.5);
     (void)render({scene, "--frames", "2:2", "-o", "f.exr", "--force", "--exposure", "0.5"});
     EXPECT_EQ(exposure_of("f.0002").at("stops"), 0.5);
 }

@@ -1,5 +1,6 @@
 #include "report/comparison_report.h"
 
+#include "report/comparison_files.h"
 #include "support/page_script.h"
 
 #include <cmath>
@@ -102,6 +103,20 @@ TEST(ComparisonReport, OnlyComparableImagesCanDisagree) {
     EXPECT_TRUE(report.agrees());
     report.pairs[0].agreement.reset();
     EXPECT_TRUE(report.agrees()) << "not tested";
+}
+
+TEST(ComparisonPlots, CutLongNamesBetweenCharacters) {
+    ComparisonReport report = small_comparison();
+    report.variants[0].name = "24 letters, then Greek: αβγδεζ";
+    std::string text;
+    for (const NamedPlot& plot : convergence_plots(report)) text += to_svg(plot.plot);
+    EXPECT_NE(text.find("24 letters, then Greek: ..."), std::string::npos) << text;
+}
+
+TEST(ComparisonTables, CommandsStayWithinTheirComment) {
+    ComparisonReport report = small_comparison();
+    report.command = "etendue compare 'a\n\\input{b}'";
+    EXPECT_EQ(to_tex(report).find("\n\\input"), std::string::npos);
 }
 
 TEST(ComparisonPage, HoldsTheReportAndItsImages) {
