@@ -74,13 +74,14 @@ std::string to_table(const BatchPlan& plan) {
     std::vector<PlanRow> rows{{"scene", "plan", "why", "size", "spp", "integrator", "camera", "estimate", "image"}};
     rows.reserve(plan.size() + 1);
     for (const PlannedUnit& unit : plan) rows.push_back(row_of(unit));
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const PlanRow& row : rows)
+        for (std::size_t column = 0; column < row.size(); ++column)
+            widths[column] = std::max(widths[column], row[column].size());
     std::string text;
     for (const PlanRow& row : rows) {
-        for (std::size_t column = 0; column + 1 < row.size(); ++column) {
-            std::size_t width = 0;
-            for (const PlanRow& other : rows) width = std::max(width, other[column].size());
-            text += fmt::format("{:<{}}  ", row[column], width);
-        }
+        for (std::size_t column = 0; column + 1 < row.size(); ++column)
+            text += fmt::format("{:<{}}  ", row[column], widths[column]);
         text += row.back() + "\n";
     }
     return text + failures(plan) + counted(plan) + failing(plan) + "\n";

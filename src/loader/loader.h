@@ -82,8 +82,8 @@ struct LoadedScene {
 [[nodiscard]] std::vector<std::filesystem::path> find_inputs(const std::filesystem::path& path);
 
 /// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or glTF files, also
-/// inside another one. Loading says of those with several files that one must be named. Does not follow links. Throws
-/// SceneError if `root` is no directory.
+/// inside another one. Loading says of those with several files that one must be named. Links to directories are
+/// followed, but for those in a scene directory and those that lead up. Throws SceneError if `root` is no directory.
 [[nodiscard]] std::vector<std::filesystem::path> find_scene_directories(const std::filesystem::path& root);
 
 }  // namespace etendue

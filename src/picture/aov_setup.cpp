@@ -9,6 +9,7 @@
 #include "picture/aov_sources.h"
 #include "picture/light_names.h"
 #include "picture/matte_names.h"
+#include "picture/render_setup.h"
 
 #include <algorithm>
 #include <array>
@@ -141,7 +142,8 @@ class Planner {
         const std::string& type = scene_.settings.integrator.type;
         const IntegratorEntry* const entry = find_integrator(type);
         if (entry != nullptr && !entry->has_expressions)
-            fail(aov, fmt::format("'{}' does not tell paths apart; path, direct, naive, light and bdpt do", type));
+            fail(aov, fmt::format("'{}' does not tell paths apart; these do: {}", type,
+                                  names_of([](const IntegratorEntry& other) { return other.has_expressions; })));
         if (!add_output(aov, {name, "RGB", AovKind::Layer, expressions_.size()}, text)) return;
         try {
             expressions_.push_back(parse_expression(text));

@@ -63,10 +63,10 @@ OutputFrame to_frame(const Json& json) {
     json.at("working_space").get_to(f.working_space);
     json.at("display").get_to(f.display);
     json.at("view").get_to(f.view);
-    f.look = json.value("look", "");  // this and the two below: parts of before they were known have none
+    json.at("look").get_to(f.look);
     if (const Json& stops = json.at("exposure"); !stops.is_null()) f.exposure = stops.get<float>();
-    f.output_space = json.value("output_space", "");
-    f.aces_container = json.value("aces_container", false);
+    json.at("output_space").get_to(f.output_space);
+    json.at("aces_container").get_to(f.aces_container);
     f.world_to_camera = to_matrix(json.at("world_to_camera"));
     if (const Json& matrix = json.at("world_to_screen"); !matrix.is_null()) f.world_to_screen = to_matrix(matrix);
     json.at("camera").get_to(f.camera);
@@ -98,7 +98,7 @@ AovOutput to_aov(const Json& json) {
     json.at("first").get_to(aov.first);
     json.at("background").get_to(aov.background);
     json.at("is_float").get_to(aov.is_float);
-    aov.manifest = json.value("manifest", "");
+    json.at("manifest").get_to(aov.manifest);
     return aov;
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +31,8 @@ FilterShape to_filter_shape(PixelFilterType type) {
     return FilterShape::BlackmanHarris;
 }
 
-/// Returns "'path' and 'direct'", the integrators for which `is_meant` is true.
+}  // namespace
+
 std::string names_of(const std::function<bool(const IntegratorEntry&)>& is_meant) {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry())
@@ -42,8 +42,6 @@ std::string names_of(const std::function<bool(const IntegratorEntry&)>& is_meant
         text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
     return text;
 }
-
-}  // namespace
 
 RenderOptions make_render_options(const RenderSettings& settings) {
     const FilmSettings& film = settings.film;

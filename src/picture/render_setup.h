@@ -8,6 +8,7 @@
 #include "scene/render_settings.h"
 #include "world/world.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ namespace etendue {
 
 /// The state of a render that has not begun, with the films that it needs.
 [[nodiscard]] RenderState make_render_state(const RenderOptions& options, bool has_halves);
+
+/// Returns "'path' and 'direct'", the integrators for which `is_meant` is true.
+[[nodiscard]] std::string names_of(const std::function<bool(const IntegratorEntry&)>& is_meant);
 
 /// Names the integrators of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();
