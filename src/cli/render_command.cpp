@@ -36,7 +36,7 @@ namespace etendue {
 namespace {
 
 struct RenderArguments {
-    ImageJobOptions job;
+    SceneRenderRequest job;
     std::string scene;
     std::filesystem::path output;
     std::optional<int> first_frame;  ///< first frame of a sequence that is rendered in part
@@ -88,13 +88,13 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     std::set<std::string> told;
     std::optional<SomethingToKeep> kept_from_signals;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
-        ImageJobOptions options = arguments.job;
-        options.force = arguments.force || (!is_sequence && !arguments.job.resume);
-        if (is_sequence) options.title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
-        options.told = &told;
-        if (page) options.watchers.push_back(&*page);
-        if (tev) options.watchers.push_back(&*tev);
-        ImageResult result = run_job(jobs[i], options, threads);
+        SceneRenderRequest request = arguments.job;
+        request.force = arguments.force || (!is_sequence && !arguments.job.resume);
+        if (is_sequence) request.title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
+        request.told = &told;
+        if (page) request.watchers.push_back(&*page);
+        if (tev) request.watchers.push_back(&*tev);
+        ImageResult result = run_job(jobs[i], std::move(request), threads);
         if (!quiet && result.outcome == ImageOutcome::UpToDate)
             log_info("{}: up to date", result.job.output.string());
         else if (!quiet)

@@ -69,34 +69,20 @@ SettingsOverrides overrides_of(const ImageJob& job, SettingsOverrides overrides)
     return overrides;
 }
 
-ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const ThreadPool& threads) {
+ImageResult run_job(const ImageJob& job, SceneRenderRequest request, const ThreadPool& threads) {
     ImageResult result{job, ImageOutcome::UpToDate, {}, {}};
-    SceneRenderRequest request{.scene = job.scene,
-                               .output = job.output,
-                               .first_frame = job.first_frame,
-                               .strategies = options.strategies,
-                               .overrides = overrides_of(job, options.overrides),
-                               .samples = options.samples,
-                               .checkpoint_minutes = options.checkpoint_minutes,
-                               .resume = options.resume,
-                               .keep_sums_after = options.keep_sums_after,
-                               .force = options.force,
-                               .progress_descriptor = options.progress_descriptor,
-                               .quiet = options.quiet,
-                               .title = options.title,
-                               .command = options.command,
-                               .is_lost = options.is_lost,
-                               .watchers = options.watchers,
-                               .told = options.told};
+    request.scene = job.scene;
+    request.output = job.output;
+    request.first_frame = job.first_frame;
+    request.overrides = overrides_of(job, std::move(request.overrides));
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const OutputPaths paths = OutputPaths::beside(job.output, request.overrides.png);
-    if (!options.force && !is_partial(job.output) &&
+    if (!request.force && !is_partial(job.output) &&
         is_up_to_date(paths, job.scene, prepared.scene, request.overrides.depth)) {
         // Of a render that was stopped after its image was complete.
         CheckpointFiles(job.output).remove();
         return result;
     }
-    if (options.make_directories) std::filesystem::create_directories(job.output.parent_path());
     SceneRenderResult rendered = render_scene(std::move(prepared), request, threads);
     result.statistics = std::move(rendered.statistics);
     if (rendered.was_there) return result;

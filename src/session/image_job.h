@@ -5,10 +5,8 @@
 #include "session/scene_render.h"
 #include "session/settings_overrides.h"
 
-#include <atomic>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,26 +48,9 @@ struct ImageResult {
 /// Returns `overrides` with the frame, variant and camera of the job.
 [[nodiscard]] SettingsOverrides overrides_of(const ImageJob& job, SettingsOverrides overrides);
 
-struct ImageJobOptions {
-    SettingsOverrides overrides;
-    bool force = false;  ///< also what is up to date
-    bool quiet = false;
-    bool make_directories = false;               ///< for the output
-    double checkpoint_minutes = 0.0;             ///< as in SceneRenderRequest
-    bool resume = false;                         ///< the same
-    std::optional<double> keep_sums_after{};     ///< the same
-    int progress_descriptor = -1;                ///< the same
-    StrategiesRequest strategies{};              ///< the same
-    std::optional<SampleRange> samples{};        ///< the same
-    std::string title{};                         ///< before the progress bar
-    std::string command{};                       ///< as in SceneRenderRequest
-    const std::atomic<bool>* is_lost = nullptr;  ///< as in SceneRenderRequest
-    std::vector<RenderWatcher*> watchers{};      ///< the same
-    std::set<std::string>* told = nullptr;       ///< the same
-};
-
-/// Renders the image unless it is up to date. Throws what `prepare_scene` and `render_scene` throw.
-[[nodiscard]] ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const ThreadPool& threads);
+/// Renders the image of `job` as `request` asks, whose scene, output and frame are the job's. Unless it is forced, what
+/// is up to date is left as it is. Throws what `prepare_scene` and `render_scene` throw.
+[[nodiscard]] ImageResult run_job(const ImageJob& job, SceneRenderRequest request, const ThreadPool& threads);
 
 /// A JSON array with one object for each image.
 [[nodiscard]] std::string to_json(std::span<const ImageResult> results);

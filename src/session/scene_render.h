@@ -31,8 +31,8 @@ struct SceneRenderRequest {
     double checkpoint_minutes = 0.0;          ///< between checkpoints; 0 for none but when interrupted
     bool resume = false;                      ///< go on with the checkpoint, if there is one, or with the part
     std::optional<double> keep_sums_after{};  ///< seconds that a render takes whose sums are kept; none for never
-    bool force = false;            ///< render a part again that was rendered before; a checkpoint is gone on with
-    int progress_descriptor = -1;  ///< pipe that progress is written to as JSON; -1 for a bar on stderr
+    bool force = false;                       ///< render again what was rendered before; a checkpoint is gone on with
+    int progress_descriptor = -1;             ///< pipe that progress is written to as JSON; -1 for a bar on stderr
     bool quiet = false;
     std::string title{};    ///< before the progress bar
     std::string command{};  ///< the command line, to be told with the image

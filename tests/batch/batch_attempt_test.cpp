@@ -18,6 +18,7 @@ TEST(AttemptHere, EndsWithoutAnImageOnceTheLockIsLost) {
     const TestFolder folder;
     write_scene(folder / "a");
     write_file(folder / "a/render.json", R"({"size": [16, 12], "spp": 10000000, "time": 8, "environment": {}})");
+    fs::create_directories(folder / "out");
     const BatchTask task{{folder / "a", folder / "out/a.exr", "a", {}}, folder / "out/a.exr", "a"};
     const auto start = std::chrono::steady_clock::now();
     const Attempt attempt = attempt_here(

@@ -40,15 +40,15 @@ class Onlooker final : public RenderWatcher {
 /// Renders for `onlooker`; what it saw last is what was written. Takes long enough for it to look on the way.
 void render_for(Onlooker& onlooker, const TestFolder& folder, const std::string& integrator) {
     const std::string spp = integrator == "path" ? "512" : "128";
-    ImageJobOptions options;
-    options.force = true;
-    options.quiet = true;
-    options.watchers = {&onlooker};
+    SceneRenderRequest request;
+    request.force = true;
+    request.quiet = true;
+    request.watchers = {&onlooker};
     for (const auto& [option, text] : {std::pair("--integrator", integrator), std::pair("--size", std::string("64x64")),
                                        std::pair("--spp", spp), std::pair("--aov", std::string("depth"))})
-        options.overrides.give(option, text);
+        request.overrides.give(option, text);
     const ThreadPool threads(2);
-    (void)run_job({folder.path(), folder / "a.exr", "a", std::nullopt}, options, threads);
+    (void)run_job({folder.path(), folder / "a.exr", "a", std::nullopt}, request, threads);
 }
 
 TEST(RenderWatchers, ChangeNoBitOfTheImageHoweverOftenTheyLook) {
