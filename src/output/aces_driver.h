@@ -2,7 +2,7 @@
 #pragma once
 
 #include "color/color_config.h"
-#include "output/output_driver.h"
+#include "output/output_frame.h"
 
 #include <filesystem>
 
@@ -11,13 +11,13 @@ namespace etendue {
 /// The frame in ACES2065-1, whatever space it says it is written in: scan lines of R, G, B and, where the frame has it,
 /// A in 16-bit floats, not compressed. The header has what the standard requires and a comment that says how the image
 /// was made, and nothing else. docs/colour.md lists the constraints.
-class AcesDriver final : public OutputDriver {
+class AcesDriver final {
   public:
     AcesDriver(std::filesystem::path path, ColorConfig config);
 
     /// NaN becomes 0, and what is beyond the largest 16-bit float that one: other values are not valid there. Throws
     /// SceneError if the config has no ACES2065-1.
-    void write(const OutputFrame& frame) override;
+    void write(const OutputFrame& frame);
 
   private:
     std::filesystem::path path_;

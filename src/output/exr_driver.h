@@ -3,7 +3,7 @@
 
 #include "color/color_config.h"
 #include "image/write.h"
-#include "output/output_driver.h"
+#include "output/output_frame.h"
 
 #include <filesystem>
 #include <span>
@@ -13,13 +13,13 @@ namespace etendue {
 /// Pixels as they are, in the frame's output space or else its working space, with all metadata: chromaticities,
 /// oiio:ColorSpace, worldToCamera and worldToNDC by OpenEXR's conventions, and etendue:* for how the image was made.
 /// docs/colour.md lists them.
-class ExrDriver final : public OutputDriver {
+class ExrDriver final {
   public:
     /// `depth` is Half or Float.
     ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth depth = PixelDepth::Half);
 
     /// The image and its layers as the channels of one part: R, G, B, A, NAME.R …
-    void write(const OutputFrame& frame) override;
+    void write(const OutputFrame& frame);
     /// Writes the image and the layers of `frame` as parts of their own, "rgba", NAME …, from pixels that are in the
     /// space in which the file holds them.
     void write_layers_as_parts(const OutputFrame& frame);

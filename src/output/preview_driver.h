@@ -2,7 +2,7 @@
 #pragma once
 
 #include "color/color_config.h"
-#include "output/output_driver.h"
+#include "output/output_frame.h"
 
 #include <filesystem>
 
@@ -10,12 +10,12 @@ namespace etendue {
 
 /// An 8-bit RGB PNG of the frame over black, through its exposure, display and view. Only the crop window is written,
 /// and of one that goes beyond the image, what lies within.
-class PreviewDriver final : public OutputDriver {
+class PreviewDriver final {
   public:
     PreviewDriver(std::filesystem::path path, ColorConfig config);
 
     /// Without an exposure the frame is shown as it is.
-    void write(const OutputFrame& frame) override;
+    void write(const OutputFrame& frame);
 
     /// Returns the share of the pixels that was last written that have a channel as bright as a PNG can show.
     [[nodiscard]] double clipped_share() const { return clipped_share_; }
