@@ -1,6 +1,6 @@
 #include "picture/exr_files.h"
 
-#include "output/aces_driver.h"
+#include "output/aces_file.h"
 #include "output/exr_driver.h"
 #include "output/output_space.h"
 #include "picture/output_paths.h"
@@ -21,7 +21,7 @@ void write_frame(const std::filesystem::path& exr, const OutputFrame& frame, Aov
     OutputFrame alone = frame;
     alone.layers.clear();
     if (frame.aces_container)
-        AcesDriver(exr, colors).write(alone);
+        write_aces(exr, alone, colors);
     else
         driver.write(alone);
 }
@@ -32,7 +32,7 @@ void write_exr_files(const std::filesystem::path& exr, const ImageDescription& i
                      PixelDepth depth) {
     const OutputFrame& frame = image.frame;
     if (frame.aces_container && frame.layers.empty() && frame.deep.counts.empty()) {
-        AcesDriver(exr, colors).write(frame);
+        write_aces(exr, frame, colors);
     } else if (is_to_be_converted(frame)) {
         OutputFrame converted = frame;
         to_output_space(converted, colors);

@@ -4,7 +4,7 @@
 #include "core/write_file.h"
 #include "image/finite.h"
 #include "output/auto_exposure.h"
-#include "output/preview_driver.h"
+#include "output/preview_png.h"
 #include "picture/exr_files.h"
 #include "process/peak_memory.h"
 #include "session/checkpoint_files.h"
@@ -189,11 +189,7 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
     image.statistics.exposure = image.frame.exposure;
     image.statistics.exposure_reason = image.frame.exposure_reason;
     write_exr_files(paths.exr, image, colors, depth);
-    if (!paths.png.empty()) {
-        PreviewDriver driver(paths.png, colors);
-        driver.write(image.frame);
-        image.statistics.clipped_share = driver.clipped_share();
-    }
+    if (!paths.png.empty()) image.statistics.clipped_share = write_preview_png(paths.png, image.frame, colors);
     if (beside) beside();
     image.statistics.layer_files = layer_file_names(paths.exr, image);
     image.statistics.file_sizes = sizes_of_files(paths, image.statistics.layer_files);

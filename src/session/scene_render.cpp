@@ -4,7 +4,7 @@
 #include "core/log.h"
 #include "image/image_module.h"
 #include "output/auto_exposure.h"
-#include "output/preview_driver.h"
+#include "output/preview_png.h"
 #include "picture/aov_setup.h"
 #include "picture/description_text.h"
 #include "picture/image_description.h"
@@ -334,7 +334,7 @@ class SceneRender {
         describe_state(now, state, false, "preview");
         choose_missing_exposure(now.frame);
         try {
-            PreviewDriver(path, colors_).write(now.frame);
+            write_preview_png(path, now.frame, colors_);
             // Of a pass that was stopped, some pixels have samples.
             const double spp =
                 static_cast<double>(state.counters.samples) / static_cast<double>(options_.window.area());

@@ -1,4 +1,4 @@
-#include "output/preview_driver.h"
+#include "output/preview_png.h"
 
 #include "core/error.h"
 #include "core/pixel_rect.h"
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <utility>
 
 namespace etendue {
 
@@ -38,21 +37,18 @@ double clipped_share_of(const ImageF& shown) {
 
 }  // namespace
 
-PreviewDriver::PreviewDriver(std::filesystem::path path, ColorConfig config)
-    : path_(std::move(path)), config_(std::move(config)) {}
-
-void PreviewDriver::write(const OutputFrame& frame) {
-    if (frame.pixels.channels < 3) throw IoError("cannot write " + path_.string() + ": the image is not RGB or RGBA");
+double write_preview_png(const std::filesystem::path& path, const OutputFrame& frame, const ColorConfig& config) {
+    if (frame.pixels.channels < 3) throw IoError("cannot write " + path.string() + ": the image is not RGB or RGBA");
     const DisplayView view = with_defaults(
-        {frame.working_space, frame.display, frame.view, frame.look, frame.exposure.value_or(0.0f)}, config_);
+        {frame.working_space, frame.display, frame.view, frame.look, frame.exposure.value_or(0.0f)}, config);
     ImageWriteOptions options;
     options.depth = PixelDepth::UInt8;
     options.attributes = display_attributes(view);
     options.attributes.push_back({"etendue:scene", frame.scene});
     const std::optional<ImageF> part = without_overscan(frame);
-    const ImageF shown = display_image(part ? *part : frame.pixels, view, config_);
-    clipped_share_ = clipped_share_of(shown);
-    write_image(path_, shown, options);
+    const ImageF shown = display_image(part ? *part : frame.pixels, view, config);
+    write_image(path, shown, options);
+    return clipped_share_of(shown);
 }
 
 }  // namespace etendue

@@ -1,4 +1,4 @@
-#include "output/aces_driver.h"
+#include "output/aces_file.h"
 
 #include "core/error.h"
 #include "image/read.h"
@@ -29,18 +29,18 @@ OutputFrame whole_frame(int channels) {
 
 std::vector<std::byte> written(const OutputFrame& frame) {
     const TestFolder folder;
-    AcesDriver(folder / "a.exr", ColorConfig::built_in()).write(frame);
+    write_aces(folder / "a.exr", frame, ColorConfig::built_in());
     return read_all(folder / "a.exr");
 }
 
-TEST(AcesDriver, SatisfiesTheStandard) {
+TEST(AcesFile, SatisfiesTheStandard) {
     EXPECT_EQ(AcesContainerCheck::violations(written(whole_frame(4))), Lines());
     EXPECT_EQ(AcesContainerCheck::violations(written(whole_frame(3))), Lines());
     EXPECT_EQ(AcesContainerCheck::violations(written(make_test_frame())), Lines()) << "a crop window";
 }
 
 /// So that the check above means something: an ordinary EXR fails it on most counts, a damaged one on one.
-TEST(AcesDriver, TheCheckFindsWhatIsWrong) {
+TEST(AcesFile, TheCheckFindsWhatIsWrong) {
     const TestFolder folder;
     ExrDriver(folder / "a.exr", ColorConfig::built_in()).write(whole_frame(4));
     const Lines found = AcesContainerCheck::violations(read_all(folder / "a.exr"));
@@ -57,13 +57,13 @@ TEST(AcesDriver, TheCheckFindsWhatIsWrong) {
     EXPECT_EQ(AcesContainerCheck::violations(damaged), Lines{"the file is not as long as its lines are"});
 }
 
-TEST(AcesDriver, ConvertsToAces) {
+TEST(AcesFile, ConvertsToAces) {
     OutputFrame frame = whole_frame(3);
     frame.working_space = "Linear Rec.709 (sRGB)";
     frame.pixels = ImageF(2, 1, 4);
     frame.pixels.pixels = {1.0f, 0.0f, 0.0f, 0.5f, 0.18f, 0.18f, 0.18f, 1.0f};
     const TestFolder folder;
-    AcesDriver(folder / "a.exr", ColorConfig::built_in()).write(frame);
+    write_aces(folder / "a.exr", frame, ColorConfig::built_in());
     const ImageF back = read_image_float(folder / "a.exr");
     // The first column of Rec.709 to AP0, Bradford: AMPAS, ACES 1.3.
     const std::array<float, 8> expected{0.4397010f, 0.0897923f, 0.0175440f, 0.5f, 0.18f, 0.18f, 0.18f, 1.0f};
@@ -73,20 +73,20 @@ TEST(AcesDriver, ConvertsToAces) {
     EXPECT_TRUE(read_image_info(folder / "a.exr").is_aces_container);
 }
 
-TEST(AcesDriver, HoldsOnlyValidValues) {
+TEST(AcesFile, HoldsOnlyValidValues) {
     OutputFrame frame = whole_frame(3);
     frame.working_space = "ACES2065-1";
     const float infinity = std::numeric_limits<float>::infinity();
     frame.pixels = ImageF(2, 1, 3);
     frame.pixels.pixels = {std::nanf(""), infinity, -infinity, 1e9f, -2.0f, 0.5f};
     const TestFolder folder;
-    AcesDriver(folder / "a.exr", ColorConfig::built_in()).write(frame);
+    write_aces(folder / "a.exr", frame, ColorConfig::built_in());
     EXPECT_EQ(read_image_float(folder / "a.exr").pixels,
               (std::vector<float>{0.0f, 65504.0f, -65504.0f, 65504.0f, -2.0f, 0.5f}));
     EXPECT_EQ(AcesContainerCheck::violations(read_all(folder / "a.exr")), Lines());
 }
 
-TEST(AcesDriver, NeedsAces) {
+TEST(AcesFile, NeedsAces) {
     const TestFolder folder;
     std::ofstream(folder / "config.ocio") << "ocio_profile_version: 1\nsearch_path: \"\"\n"
                                              "roles: {default: linear, scene_linear: linear}\n"
@@ -94,8 +94,7 @@ TEST(AcesDriver, NeedsAces) {
                                              "colorspaces:\n  - !<ColorSpace>\n    name: linear\n";
     OutputFrame frame = whole_frame(3);
     frame.working_space = "linear";
-    AcesDriver driver(folder / "a.exr", ColorConfig::from_file(folder / "config.ocio"));
-    EXPECT_THROW(driver.write(frame), SceneError);
+    EXPECT_THROW(write_aces(folder / "a.exr", frame, ColorConfig::from_file(folder / "config.ocio")), SceneError);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
 }
 

@@ -1,4 +1,4 @@
-#include "output/aces_driver.h"
+#include "output/aces_file.h"
 
 #include "color/primaries.h"
 #include "core/error.h"
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -38,16 +37,13 @@ std::vector<ImageAttribute> aces_attributes(const OutputFrame& frame) {
 
 }  // namespace
 
-AcesDriver::AcesDriver(std::filesystem::path path, ColorConfig config)
-    : path_(std::move(path)), config_(std::move(config)) {}
-
-void AcesDriver::write(const OutputFrame& frame) {
-    const std::string aces = config_.aces_space();
+void write_aces(const std::filesystem::path& path, const OutputFrame& frame, const ColorConfig& config) {
+    const std::string aces = config.aces_space();
     if (aces.empty())
-        throw SceneError({path_.string(), {}},
-                         fmt::format("the OpenColorIO config {} has no ACES2065-1", config_.origin()));
+        throw SceneError({path.string(), {}},
+                         fmt::format("the OpenColorIO config {} has no ACES2065-1", config.origin()));
     ImageF pixels = frame.pixels;
-    convert_space(pixels, frame.working_space, aces, config_);
+    convert_space(pixels, frame.working_space, aces, config);
     for (float& value : pixels.pixels)
         value = std::isnan(value) ? 0.0f : std::clamp(value, -kLargestValue, kLargestValue);
     ImageWriteOptions options;
@@ -58,7 +54,7 @@ void AcesDriver::write(const OutputFrame& frame) {
     options.offset_y = frame.crop_y;
     options.full_width = frame.full_width;
     options.full_height = frame.full_height;
-    write_image(path_, pixels, options);
+    write_image(path, pixels, options);
 }
 
 }  // namespace etendue
