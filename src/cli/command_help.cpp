@@ -12,11 +12,6 @@ namespace etendue {
 
 namespace {
 
-std::string without_spaces(const std::string& text) {
-    const std::size_t begin = text.find_first_not_of(' ');
-    return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
-
 /// The words of "TEXT:{draft,final,preview}"; none if the type has no such list.
 std::vector<std::string> choices_of(const std::string& type) {
     const std::size_t begin = type.find('{');
@@ -44,7 +39,7 @@ OptionHelp describe_option(const CLI::Option& option) {
     for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
     const CLI::Formatter formatter;
     help.group = option.get_group();
-    help.terms = without_spaces(formatter.make_option_opts(&option));
+    help.terms = CLI::detail::trim_copy(formatter.make_option_opts(&option));
     help.description = option.get_description();
     // CLI11 names a type before its range or its words, and the default behind them.
     for (const auto& [from, to] :

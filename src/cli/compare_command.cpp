@@ -26,18 +26,13 @@ NamedRegion parse_region(const std::string& text) {
     const std::size_t colon = text.rfind(':');
     if (colon == std::string::npos || colon == 0)
         throw CLI::ValidationError("--region", "'" + text + "' is not NAME:x0,y0,x1,y1");
-    const auto window = parse_pixel_window("--region", text.substr(colon + 1));
-    return {text.substr(0, colon), {window[0], window[1], window[2], window[3]}, false};
+    return {text.substr(0, colon), parse_pixel_window("--region", text.substr(colon + 1)), false};
 }
 
 NamedOptions parse_variant(const std::string& text) {
     const std::size_t colon = text.find(':');
-    const auto trimmed = [](const std::string& part) {
-        const std::size_t first = part.find_first_not_of(' ');
-        return first == std::string::npos ? "" : part.substr(first, part.find_last_not_of(' ') - first + 1);
-    };
-    NamedOptions variant{trimmed(text.substr(0, colon)),
-                         colon == std::string::npos ? "" : trimmed(text.substr(colon + 1))};
+    NamedOptions variant{CLI::detail::trim_copy(text.substr(0, colon)),
+                         colon == std::string::npos ? "" : CLI::detail::trim_copy(text.substr(colon + 1))};
     if (colon == std::string::npos || variant.name.empty() || variant.name.starts_with('-'))
         throw CLI::ValidationError(
             "--variant", fmt::format("'{}' is not NAME: OPTIONS, such as 'power: --heuristic power'; a set of "

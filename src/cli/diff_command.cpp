@@ -50,15 +50,10 @@ struct DiffArguments {
     bool quiet = false;
 };
 
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return text;
-}
-
 /// "flip=0.05".
 Limit parse_limit(const std::string& text) {
     const std::size_t equals = text.find('=');
-    Limit limit{lower_case(text.substr(0, equals)), 0.0};
+    Limit limit{CLI::detail::to_lower(text.substr(0, equals)), 0.0};
     const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
     char rest = 0;
     if (std::sscanf(value.c_str(), "%lf%c", &limit.value, &rest) != 1 || !(limit.value >= 0.0))
@@ -84,11 +79,6 @@ void parse_exposures(const std::string& text, HdrFlipOptions& options) {
             fmt::format("'{}' is not START:STOP in stops with -{:g} <= START <= STOP <= {:g}", text, kMost, kMost));
     options.start_exposure = start;
     options.stop_exposure = stop;
-}
-
-PixelRect parse_window(const std::string& text) {
-    const auto window = parse_pixel_window("--crop", text);
-    return {window[0], window[1], window[2], window[3]};
 }
 
 /// The measures that were named or have a limit, or the usual ones; each once, limits' last.
@@ -238,7 +228,8 @@ void add_diff_options(CLI::App& command, DiffArguments& arguments) {
         ->check(CLI::PositiveNumber);
     command
         .add_option_function<std::string>(
-            "--crop", [&arguments](const std::string& text) { arguments.options.region = parse_window(text); },
+            "--crop",
+            [&arguments](const std::string& text) { arguments.options.region = parse_pixel_window("--crop", text); },
             "Measure only the pixels from x0, y0 to before x1, y1 of the full image, with y down from the top left "
             "corner")
         ->type_name("x0,y0,x1,y1");

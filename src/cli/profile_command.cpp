@@ -338,12 +338,6 @@ void set_profile_groups(CLI::App& command) {
     command.get_option("--spp")->description("Samples per pixel of each repetition, in place of --time");
 }
 
-void require_useful_baseline(const ProfileArguments& arguments) {
-    if (arguments.against.empty()) return;
-    if (arguments.repetitions < 2)
-        throw CLI::ValidationError("--against", "takes --repeat 2 or more: of one repetition nothing can be concluded");
-}
-
 }  // namespace
 
 void add_profile_command(CLI::App& app, Action& action) {
@@ -375,7 +369,9 @@ void add_profile_command(CLI::App& app, Action& action) {
             throw CLI::ValidationError("--threads", "a number of threads is given twice");
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
         arguments->command = command_line("etendue profile", given_options(all));
-        require_useful_baseline(*arguments);
+        if (!arguments->against.empty() && arguments->repetitions < 2)
+            throw CLI::ValidationError("--against",
+                                       "takes --repeat 2 or more: of one repetition nothing can be concluded");
         action = [arguments] { return run_profile(*arguments); };
     });
 }

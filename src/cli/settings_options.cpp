@@ -143,28 +143,7 @@ void add_setting_option(CLI::App& command, const Setting& setting, SettingsOverr
         option->check(CLI::IsMember(integrator_setting_names()).description(""));
 }
 
-}  // namespace
-
-CLI::Validator real_range(double least, double most) {
-    const auto check = [least, most](const std::string& text) {
-        double value = 0.0;
-        // Written so that NaN does not pass.
-        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
-        return fmt::format("'{}' is not a number from {:g} to {:g}", text, least, most);
-    };
-    return CLI::Validator(check, fmt::format("FLOAT in [{:g} - {:g}]", least, most));
-}
-
-std::array<int, 4> parse_pixel_window(const std::string& option, const std::string& text) {
-    const Setting& crop = *find_setting("/crop");
-    const std::optional<SettingValue> value = parse_option(crop, text);
-    if (!value) throw CLI::ValidationError(option, fmt::format("'{}' is not {}", text, option_requirement(crop.type)));
-    std::array<int, 4> window{};
-    std::ranges::transform(std::get<std::vector<std::int64_t>>(*value), window.begin(),
-                           [](std::int64_t side) { return static_cast<int>(side); });
-    return window;
-}
-
+/// Adds --assets DIR, which adds to `assets` before what $ETENDUE_ASSETS lists.
 void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& assets) {
     if (const char* listed = std::getenv("ETENDUE_ASSETS")) {
         std::istringstream list(listed);
@@ -185,6 +164,27 @@ void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& as
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+}  // namespace
+
+CLI::Validator real_range(double least, double most) {
+    const auto check = [least, most](const std::string& text) {
+        double value = 0.0;
+        // Written so that NaN does not pass.
+        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
+        return fmt::format("'{}' is not a number from {:g} to {:g}", text, least, most);
+    };
+    return CLI::Validator(check, fmt::format("FLOAT in [{:g} - {:g}]", least, most));
+}
+
+PixelRect parse_pixel_window(const std::string& option, const std::string& text) {
+    const Setting& crop = *find_setting("/crop");
+    const std::optional<SettingValue> value = parse_option(crop, text);
+    if (!value) throw CLI::ValidationError(option, fmt::format("'{}' is not {}", text, option_requirement(crop.type)));
+    const auto& sides = std::get<std::vector<std::int64_t>>(*value);
+    const auto side = [&](std::size_t i) { return static_cast<int>(sides[i]); };
+    return {side(0), side(1), side(2), side(3)};
+}
+
 void add_png_option(CLI::App& command, SettingsOverrides& overrides) {
     command
         .add_flag_callback(
@@ -195,11 +195,6 @@ void add_png_option(CLI::App& command, SettingsOverrides& overrides) {
 void add_scene_argument(CLI::App& command, std::string& scene) {
     // In capitals: CLI11 2.4 refuses a word that has the name of an option, as --scene.
     command.add_option("SCENE", scene, "Scene directory, .gltf or .glb")->required();
-}
-
-void add_settings_options(CLI::App& command, SettingsOverrides& overrides,
-                          std::initializer_list<std::string_view> pointers) {
-    for (const std::string_view pointer : pointers) add_setting_option(command, *find_setting(pointer), overrides);
 }
 
 void add_settings_options(CLI::App& command, SettingsOverrides& overrides) {

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kSecondsBetweenLines = 5.0;
 
-std::string format_rate(double per_second, const char* unit) {
-    if (per_second >= 1e6) return fmt::format("{:.2f} M{}/s", per_second * 1e-6, unit);
-    if (per_second >= 1e3) return fmt::format("{:.0f} k{}/s", per_second * 1e-3, unit);
-    return fmt::format("{:.0f} {}/s", per_second, unit);
+std::string format_rate(double samples_per_second) {
+    if (samples_per_second >= 1e6) return fmt::format("{:.2f} Msamples/s", samples_per_second * 1e-6);
+    if (samples_per_second >= 1e3) return fmt::format("{:.0f} ksamples/s", samples_per_second * 1e-3);
+    return fmt::format("{:.0f} samples/s", samples_per_second);
 }
 
 }  // namespace
@@ -41,11 +41,10 @@ std::string format_duration(double seconds) {
 std::string format_progress(const std::string& title, const RenderProgress& p, int width) {
     const double seconds = std::max(p.seconds, 1e-9);
     const double remaining = p.fraction > 0.0 ? p.seconds * (1.0 - p.fraction) / p.fraction : 0.0;
-    const std::string numbers =
-        fmt::format("{:3.0f}%  {} elapsed, {} left  {}  {}", std::floor(p.fraction * 100.0), format_duration(p.seconds),
-                    p.fraction > 0.0 ? format_duration(remaining) : "?",
-                    format_rate(static_cast<double>(p.samples) / seconds, "samples"),
-                    fmt::format("{:.1f} Mrays/s", static_cast<double>(p.rays) / seconds * 1e-6));
+    const std::string numbers = fmt::format(
+        "{:3.0f}%  {} elapsed, {} left  {}  {:.1f} Mrays/s", std::floor(p.fraction * 100.0), format_duration(p.seconds),
+        p.fraction > 0.0 ? format_duration(remaining) : "?", format_rate(static_cast<double>(p.samples) / seconds),
+        static_cast<double>(p.rays) / seconds * 1e-6);
     const int room = width - static_cast<int>(title.size() + numbers.size()) - 5;
     std::string bar;
     if (room >= 8) {
