@@ -1,6 +1,7 @@
 #include "world/embree_scene.h"
 
 #include "core/error.h"
+#include "core/process_time.h"
 #include "world/embree_geometry_maker.h"
 #include "world/embree_query.h"
 #include "world/embree_shape.h"
@@ -55,23 +56,21 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
       has_clear_surfaces_(!collects_ && std::ranges::any_of(filters, &HitFilter::passes_shadows)) {
     has_motion_ =
         !motions.empty() || std::ranges::any_of(geometries, [](const Geometry& g) { return !g.motion.empty(); });
-    std::atomic<std::size_t> memory{0};
     const auto start = std::chrono::steady_clock::now();
     threads.execute([&] {
         // Embree's own threads would come on top of the pool's; with start_threads=0 it uses the arena it is called
         // from.
-        device_ = rtcNewDevice("start_threads=0,set_affinity=0");
+        device_.reset(rtcNewDevice("start_threads=0,set_affinity=0"));
         if (!device_) throw IoError("Embree could not be started");
-        rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory);
-        const EmbreeGeometryMaker maker{device_, geometries, filters, collects_, collected_indices_, shapes_};
-        top_ = maker.new_scene();
+        rtcSetDeviceMemoryMonitorFunction(device_.get(), count_memory, &bytes_);
+        const EmbreeGeometryMaker maker{device_.get(), geometries, filters, collects_, collected_indices_, shapes_};
+        top_.reset(maker.new_scene());
         add_instances(maker, instances, motions);
-        rtcCommitScene(top_);
+        rtcCommitScene(top_.get());
     });
-    rtcSetDeviceMemoryMonitorFunction(device_, nullptr, nullptr);
-    bytes_ = memory.load();
-    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const RTCError error = rtcGetDeviceError(device_);
+    rtcSetDeviceMemoryMonitorFunction(device_.get(), nullptr, nullptr);
+    build_seconds_ = seconds_since(start);
+    const RTCError error = rtcGetDeviceError(device_.get());
     if (error != RTC_ERROR_NONE)
         throw IoError("Embree could not build the scene (error " + std::to_string(static_cast<int>(error)) +
                       (error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory)" : ")"));
@@ -89,7 +88,7 @@ void EmbreeScene::add_instances(const EmbreeGeometryMaker& maker, std::span<cons
                 if (!is_taken(instance, g)) continue;
                 const std::uint32_t geometry = instance.first_geometry + g;
                 const CollectedSlot* slot = collects_ ? &collected_[instance.first_light_slot + g] : nullptr;
-                maker.add_geometry(top_, geometry, slot);
+                maker.add_geometry(top_.get(), geometry, slot);
                 entries_.add({index, geometry}, slot);
             }
             continue;
@@ -99,8 +98,8 @@ void EmbreeScene::add_instances(const EmbreeGeometryMaker& maker, std::span<cons
             is_any_taken = is_any_taken || is_taken(instance, g);
         if (!is_any_taken) continue;
         RTCScene& shared = scene_of_mesh[instance.first_geometry];
-        if (!shared) shared = shared_.emplace_back(maker.build_shared_scene(instance));
-        maker.add_instance(top_, shared, instance, motions);
+        if (!shared) shared = shared_.emplace_back(maker.build_shared_scene(instance)).get();
+        maker.add_instance(top_.get(), shared, instance, motions);
         entries_.add({index, instance.first_geometry}, nullptr);
     }
 }
@@ -109,12 +108,6 @@ bool EmbreeScene::is_taken(const Instance& instance, std::uint32_t geometry) con
     if (!collects_) return true;
     const CollectedSlot& slot = collected_[instance.first_light_slot + geometry];
     return slot.is_whole || !slot.triangles.empty();
-}
-
-EmbreeScene::~EmbreeScene() {
-    for (RTCScene scene : shared_) rtcReleaseScene(scene);
-    if (top_) rtcReleaseScene(top_);
-    if (device_) rtcReleaseDevice(device_);
 }
 
 void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
@@ -182,7 +175,7 @@ std::size_t EmbreeScene::collect(const Ray& ray, float t_min, std::span<Hit> hit
     context.collected = &collected;
     RTCRayHit query = make_ray_hit(ray, 0);
     query.ray.tnear = t_min;
-    embree::intersect1(top_, context.base, query);
+    embree::intersect1(top_.get(), context.base, query);
     return collected.count;
 }
 
@@ -192,7 +185,7 @@ void EmbreeScene::for_each_near(const Vec3f& point, float radius, const NearVisi
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     NearQuery near{&entries_, &visit};
-    rtcPointQuery(top_, &query, &context, visit_near, &near);
+    rtcPointQuery(top_.get(), &query, &context, visit_near, &near);
 }
 
 bool EmbreeScene::takes_as_coherent(Coherence coherence) const {
@@ -206,7 +199,7 @@ void EmbreeScene::intersect_single(const Batch& rays, std::span<Hit> hits, RayEn
     RTCRayHit query;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         query = make_ray_hit(rays[i], static_cast<unsigned int>(i));
-        embree::intersect1(top_, context.base, query);
+        embree::intersect1(top_.get(), context.base, query);
         hits[i] = entries_.make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID,
                                     query.hit.instID[0], query.ray.time);
     }
@@ -218,7 +211,7 @@ void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool
     context.ends = ends;
     for_each_packet<Width, typename Packet<Width>::RayHits>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
-            embree::intersect(mask.valid, top_, context.base, coherent, packet);
+            embree::intersect(mask.valid, top_.get(), context.base, coherent, packet);
             for (std::size_t lane = 0; lane < count; ++lane)
                 hits[first + lane] = entries_.make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane],
                                                        packet.hit.primID[lane], packet.hit.geomID[lane],
@@ -236,7 +229,7 @@ void EmbreeScene::occluded_single(const Batch& rays, std::span<std::uint8_t> occ
     if (has_clear_surfaces_) std::ranges::fill(occluded, kFree);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         RTCRay query = make_ray(rays[i], static_cast<unsigned int>(i));
-        embree::occluded1(top_, context.base, query);
+        embree::occluded1(top_.get(), context.base, query);
         occluded[i] = query.tfar < 0.0f ? kOccluded : has_clear_surfaces_ ? occluded[i] : kFree;
     }
 }
@@ -249,7 +242,7 @@ void EmbreeScene::occluded_packets(const Batch& rays, std::span<std::uint8_t> oc
     if (has_clear_surfaces_) std::ranges::fill(occluded, kFree);
     for_each_packet<Width, typename Packet<Width>::Rays>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
-            embree::occluded(mask.valid, top_, context.base, packet);
+            embree::occluded(mask.valid, top_.get(), context.base, packet);
             if (has_clear_surfaces_) {
                 for (std::size_t lane = 0; lane < count; ++lane)
                     if (packet.tfar[lane] < 0.0f) occluded[first + lane] = kOccluded;
@@ -261,7 +254,9 @@ void EmbreeScene::occluded_packets(const Batch& rays, std::span<std::uint8_t> oc
 }
 
 std::string EmbreeScene::instruction_set() const {
-    const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device_, property) != 0; };
+    const auto supports = [&](RTCDeviceProperty property) {
+        return rtcGetDeviceProperty(device_.get(), property) != 0;
+    };
     if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return "AVX-512";
     return supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? "AVX/AVX2" : "SSE";
 }

@@ -11,12 +11,14 @@
 #include "world/hit.h"
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace etendue {
@@ -45,9 +47,6 @@ class EmbreeScene {
     EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
                 std::span<const TransformMotion> motions, std::span<const HitFilter> filters, const ThreadPool& threads,
                 std::vector<CollectedSlot> collected = {});
-    ~EmbreeScene();
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     /// Called once the World has its final address.
     void set_opacity(OpacityFunction function, const void* world);
@@ -112,13 +111,17 @@ class EmbreeScene {
     /// thousand of them).
     [[nodiscard]] bool takes_as_coherent(Coherence coherence) const;
 
-    RTCDevice device_ = nullptr;
-    RTCScene top_ = nullptr;
-    std::vector<RTCScene> shared_;
+    struct Release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    };
+    template <typename Handle>
+    using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
     EmbreeEntries entries_;
     OpacityFunction opacity_ = nullptr;
     const void* world_ = nullptr;
-    std::size_t bytes_ = 0;
+    std::atomic<std::size_t> bytes_ = 0;
     double build_seconds_ = 0.0;
     bool has_motion_ = false;
     bool collects_ = false;
@@ -126,6 +129,10 @@ class EmbreeScene {
     std::deque<std::vector<std::array<std::uint32_t, 3>>> collected_indices_;
     std::vector<std::unique_ptr<const EmbreeShape>> shapes_;  ///< to which Embree points
     bool has_clear_surfaces_ = false;
+    // Last, since they point to what is above until they are released.
+    Owned<RTCDevice> device_;
+    Owned<RTCScene> top_;
+    std::vector<Owned<RTCScene>> shared_;
 };
 
 }  // namespace etendue

@@ -1,4 +1,5 @@
 // Bare Embree on given rays: nothing but its calls is timed.
+#include "core/process_time.h"
 #include "world/embree_query.h"
 #include "world/embree_scene.h"
 
@@ -11,14 +12,12 @@ namespace etendue {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Seconds that `call` takes for all of `queries`.
 template <typename Queries, typename Call>
 double timed(Queries& queries, const Call& call) {
-    const Clock::time_point start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < queries.size(); ++i) call(i, queries[i]);
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    return seconds_since(start);
 }
 
 template <std::size_t Width>
@@ -53,14 +52,14 @@ double EmbreeScene::replay(std::span<const Ray> rays, bool occlusion, Coherence 
     context.passed = passed.data();
     switch (form) {
         case QueryForm::Single:
-            return replay_single(top_, rays, context, occlusion);
+            return replay_single(top_.get(), rays, context, occlusion);
         case QueryForm::Packet8:
-            return replay_packets<8>(top_, rays, context, occlusion, coherent);
+            return replay_packets<8>(top_.get(), rays, context, occlusion, coherent);
         case QueryForm::Best:
         case QueryForm::Packet16:
             break;
     }
-    return replay_packets<16>(top_, rays, context, occlusion, coherent);
+    return replay_packets<16>(top_.get(), rays, context, occlusion, coherent);
 }
 
 }  // namespace etendue
