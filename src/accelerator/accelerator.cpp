@@ -5,6 +5,7 @@
 #include "accelerator/kd_tree.h"
 #include "accelerator/ray_search.h"
 #include "accelerator/uniform_grid.h"
+#include "core/process_time.h"
 
 #include <cassert>
 #include <chrono>
@@ -39,7 +40,7 @@ std::unique_ptr<Accelerator> make_accelerator(AcceleratorKind kind) {
 void Accelerator::build(std::span<const Triangle> triangles) {
     const auto start = std::chrono::steady_clock::now();
     make(triangles);
-    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    build_seconds_ = seconds_since(start);
 }
 
 AcceleratorStatistics Accelerator::statistics() const {

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/position_error.h"
+#include "core/process_time.h"
 #include "world/embree_scene.h"
 #include "world/material_evaluation.h"
 #include "world/stochastic_opacity.h"
@@ -42,13 +43,6 @@ bool lets_pass(const Material& material) {
 }
 
 }  // namespace
-
-void HitAgreement::add(const HitAgreement& other) {
-    rays += other.rays;
-    ties += other.ties;
-    differ += other.differ;
-    largest_error = std::max(largest_error, other.largest_error);
-}
 
 /// Lets a ray pass what Embree's filter functions let it pass.
 class AcceleratedScene::Filter final : public TriangleFilter {
@@ -151,8 +145,8 @@ double AcceleratedScene::replay(std::span<const Ray> rays, bool occlusion, RayWo
     for (const Ray& ray : rays)
         met += occlusion ? this->occlusion(ray, RayEnds::InScene, work) == kOccluded
                          : closest(ray, RayEnds::InScene, work).valid();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    return met <= rays.size() ? seconds.count() : 0.0;
+    const double seconds = seconds_since(start);
+    return met <= rays.size() ? seconds : 0.0;
 }
 
 HitAgreement AcceleratedScene::compare_with_embree(std::span<const Ray> rays, bool occlusion) const {

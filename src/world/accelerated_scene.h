@@ -20,8 +20,6 @@ struct HitAgreement {
     std::uint64_t ties = 0;      ///< rays that met different triangles, as far away but for rounding
     std::uint64_t differ = 0;    ///< rays that differ more than that
     double largest_error = 0.0;  ///< largest difference of two distances to one triangle, relative to the scene
-
-    void add(const HitAgreement& other);
 };
 
 /// Holds all triangles of a World in world space, instances as often as they are placed, with an accelerator over them.
@@ -56,7 +54,6 @@ class AcceleratedScene {
     [[nodiscard]] HitAgreement compare_with_embree(std::span<const Ray> rays, bool occlusion) const;
 
     [[nodiscard]] AcceleratorStatistics statistics() const { return accelerator_->statistics(); }
-    [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
 
   private:
     /// Says which triangle of the World one is.

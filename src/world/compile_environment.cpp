@@ -51,8 +51,7 @@ Light compile_image(const EnvironmentDesc& desc, const ColorMatrix& from_rec709,
 
 /// Linear radiance of one face, in Rec.709.
 ImageF decode_face(const ImageDesc& desc) {
-    const ImageSource source =
-        desc.path.empty() ? ImageSource(std::span<const std::byte>(desc.encoded)) : ImageSource(desc.path);
+    const ImageSource source = source_of(desc);
     try {
         const ImageInfo info = read_image_info(source);
         const bool is_rgbd = info.format == "png" && info.channels == 4;

@@ -1,4 +1,5 @@
 #include "world/compile_parts.h"
+#include "world/lookup.h"
 #include "world/tangent_space.h"
 
 #include <algorithm>
@@ -85,7 +86,7 @@ void add_tangents(Geometry& geometry, const TextureSlot& slot) {
     if (geometry.normals.empty()) separate_triangles(geometry);
     std::vector<Vec2f> uv = texcoords;
     for (Vec2f& c : uv) {
-        c = {slot.row0.x * c.x + slot.row0.y * c.y + slot.row0.z, slot.row1.x * c.x + slot.row1.y * c.y + slot.row1.z};
+        c = transform_point(slot, c);
         // Both are finite, but not all that they make together; what is sorted by them must be.
         if (!std::isfinite(c.x) || !std::isfinite(c.y)) c = {0.0f, 0.0f};
     }

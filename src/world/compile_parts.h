@@ -19,6 +19,11 @@
 
 namespace etendue {
 
+/// Returns where the bytes of `image` are.
+[[nodiscard]] inline ImageSource source_of(const ImageDesc& image) {
+    return image.path.empty() ? ImageSource(std::span<const std::byte>(image.encoded)) : ImageSource(image.path);
+}
+
 /// Says how a texture is used, which decides how it is decoded and averaged.
 enum class TextureUse {
     Color,

@@ -63,10 +63,6 @@ TextureOptions options_of(const TextureDesc& desc, Encoding encoding) {
             .mip_filter = to_mip_filter(desc.mip_filter)};
 }
 
-ImageSource source_of(const ImageDesc& image) {
-    return image.path.empty() ? ImageSource(std::span<const std::byte>(image.encoded)) : ImageSource(image.path);
-}
-
 /// "the image 'a.exr'", as messages call it.
 std::string name_of(const ImageDesc& image) {
     return image.path.empty() ? "the image" : "the image '" + image.path.filename().string() + "'";
