@@ -12,6 +12,7 @@
 #include "metrics/error_metrics.h"
 #include "output/software_name.h"
 #include "picture/output_paths.h"
+#include "session/file_color_space.h"
 #include "session/input_files.h"
 
 #include <algorithm>
@@ -149,7 +150,7 @@ bool can_measure(const ImagePair& pair, const std::vector<std::string>& names, c
 
 void add_flip_warning(ImagePair& pair, const std::vector<std::string>& names, const ColorConfig& colors) {
     const bool has_flip = std::ranges::any_of(names, [](const std::string& name) { return name.ends_with("flip"); });
-    if (!has_flip || pair.is_encoded || knows_linear_space(pair.color_space, colors)) return;
+    if (!has_flip || pair.is_encoded || find_matrix(pair.color_space, kGltfColorSpace, colors)) return;
     pair.warnings.emplace_back("FLIP takes the images to be linear Rec.709, as their colour space is not known");
 }
 

@@ -158,25 +158,6 @@ ImageF as_rgb(ImageF image) {
     return rgb;
 }
 
-bool is_linear(const std::string& space, const ColorConfig& colors) {
-    try {
-        (void)colors.matrix(space, colors.default_working_space());
-        return true;
-    } catch (const SceneError&) {
-        return false;
-    }
-}
-
-void apply_matrix(ImageF& image, const ColorMatrix& matrix) {
-    const auto channels = static_cast<std::size_t>(image.channels);
-    for (std::size_t i = 0; i + 2 < image.pixels.size(); i += channels) {
-        const Rgb c = matrix({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
-        image.pixels[i] = c.r;
-        image.pixels[i + 1] = c.g;
-        image.pixels[i + 2] = c.b;
-    }
-}
-
 /// With names that the config has. Throws SceneError that names the option.
 DisplayView display_view(const ViewArguments& arguments, std::string space, float exposure, const ColorConfig& colors) {
     DisplayView view{std::move(space), arguments.display, arguments.view, arguments.look, exposure};
@@ -202,7 +183,7 @@ ImageF show_colors(ImageF image, const ImageInfo& part, const ViewArguments& arg
     image = as_rgb(std::move(image));
     if (from.to_space) apply_matrix(image, *from.to_space);
     std::string space = from.space;
-    if (!is_linear(space, colors)) {
+    if (!find_matrix(space, colors.default_working_space(), colors)) {
         // Exposure multiplies light.
         convert_space(image, space, colors.default_working_space(), colors);
         space = colors.default_working_space();

@@ -8,6 +8,7 @@
 #include "texture/srgb.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,15 +97,6 @@ ImageF rgb_in(const ImageF& image, const PixelRect& data, const PixelRect& windo
     return rgb;
 }
 
-void convert(ImageF& rgb, const ColorMatrix& matrix) {
-    for (std::size_t i = 0; i + 2 < rgb.pixels.size(); i += 3) {
-        const Rgb c = matrix({rgb.pixels[i], rgb.pixels[i + 1], rgb.pixels[i + 2]});
-        rgb.pixels[i] = c.r;
-        rgb.pixels[i + 1] = c.g;
-        rgb.pixels[i + 2] = c.b;
-    }
-}
-
 }  // namespace
 
 ImagePair read_image_pair(const fs::path& image, const fs::path& reference, const ColorConfig& colors) {
@@ -151,10 +143,11 @@ SceneLinearImage read_scene_linear(const fs::path& path, int full_width, int ful
     if (file.color_space.empty()) {
         image.warnings.push_back(assumed_space(path, working_space, "the render"));
     } else if (file.color_space != working_space) {
-        if (!knows_linear_space(file.color_space, colors))
+        const std::optional<ColorMatrix> matrix = find_matrix(file.color_space, working_space, colors);
+        if (!matrix)
             throw SceneError(where, fmt::format("it is in '{}', which is no linear space of the OpenColorIO config",
                                                 file.color_space));
-        convert(image.pixels, colors.matrix(file.color_space, working_space));
+        apply_matrix(image.pixels, *matrix);
         image.is_converted = true;
     }
     if (const NotFinite faults = find_not_finite(image.pixels); faults.count() > 0)
@@ -165,22 +158,13 @@ SceneLinearImage read_scene_linear(const fs::path& path, int full_width, int ful
     return image;
 }
 
-bool knows_linear_space(const std::string& color_space, const ColorConfig& colors) {
-    try {
-        (void)colors.matrix(color_space, kGltfColorSpace);
-        return true;
-    } catch (const SceneError&) {
-        return false;
-    }
-}
-
 ImageF to_linear_rec709(const ImageF& image, bool is_encoded, const std::string& color_space,
                         const ColorConfig& colors) {
     ImageF linear = image;
     if (is_encoded) {
         for (float& value : linear.pixels) value = linear_from_srgb(value);
-    } else if (!color_space.empty() && knows_linear_space(color_space, colors)) {
-        convert(linear, colors.matrix(color_space, kGltfColorSpace));
+    } else if (!color_space.empty()) {
+        if (const auto matrix = find_matrix(color_space, kGltfColorSpace, colors)) apply_matrix(linear, *matrix);
     }
     return linear;
 }

@@ -64,7 +64,4 @@ struct SceneLinearImage {
 [[nodiscard]] ImageF to_linear_rec709(const ImageF& image, bool is_encoded, const std::string& color_space,
                                       const ColorConfig& colors);
 
-/// False if `to_linear_rec709` would take floats in `color_space` to be linear Rec.709 for want of knowledge.
-[[nodiscard]] bool knows_linear_space(const std::string& color_space, const ColorConfig& colors);
-
 }  // namespace etendue

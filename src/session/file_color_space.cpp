@@ -108,4 +108,22 @@ FileColors colors_of_file(const ImageInfo& info, const std::string& told, const 
                                              said, colors.origin()));
 }
 
+std::optional<ColorMatrix> find_matrix(const std::string& from, const std::string& to, const ColorConfig& colors) {
+    try {
+        return colors.matrix(from, to);
+    } catch (const SceneError&) {
+        return std::nullopt;
+    }
+}
+
+void apply_matrix(ImageF& image, const ColorMatrix& matrix) {
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i + 2 < image.pixels.size(); i += channels) {
+        const Rgb c = matrix({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
+        image.pixels[i] = c.r;
+        image.pixels[i + 1] = c.g;
+        image.pixels[i + 2] = c.b;
+    }
+}
+
 }  // namespace etendue

@@ -25,4 +25,11 @@ struct FileColors {
 [[nodiscard]] FileColors colors_of_file(const ImageInfo& info, const std::string& told, const std::string& file,
                                         const ColorConfig& colors);
 
+/// Returns the matrix from one space to another; none if the config lacks one of them, or one is not linear.
+[[nodiscard]] std::optional<ColorMatrix> find_matrix(const std::string& from, const std::string& to,
+                                                     const ColorConfig& colors);
+
+/// Applies `matrix` to the first three channels of `image`.
+void apply_matrix(ImageF& image, const ColorMatrix& matrix);
+
 }  // namespace etendue
