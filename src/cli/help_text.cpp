@@ -1,6 +1,9 @@
 #include "cli/help_text.h"
 
+#include "core/shown_text.h"
+
 #include <algorithm>
+#include <functional>
 #include <sstream>
 #include <vector>
 
@@ -14,8 +17,7 @@ namespace {
 
 /// Characters of UTF-8: its bytes but for those that go on with one.
 std::size_t characters(const std::string& text) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+    return static_cast<std::size_t>(std::ranges::count_if(text, std::not_fn(continues_character)));
 }
 
 /// Puts the words of `text` into lines of at most `width` characters; a word that is longer has a line of its own.

@@ -1,5 +1,7 @@
 #include "picture/matte_names.h"
 
+#include "core/shown_text.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -66,12 +68,7 @@ class UniqueNames {
 
 std::string clean_matte_name(std::string_view name) {
     constexpr std::size_t kLongest = 255;
-    const auto continues_character = [&](std::size_t i) {
-        return (static_cast<unsigned char>(name[i]) & 0xc0u) == 0x80u;  // of UTF-8
-    };
-    std::size_t size = std::min(name.size(), kLongest);
-    while (size > 0 && size < name.size() && continues_character(size)) --size;
-    std::string clean(name.substr(0, size));
+    std::string clean(first_characters(name, kLongest));
     for (char& c : clean)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
     return clean;
