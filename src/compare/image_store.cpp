@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,13 +25,9 @@ namespace {
 ImageStore::ImageStore(const std::filesystem::path& directory, int width, int height, int channels)
     : directory_(directory), width_(width), height_(height), channels_(channels) {
     std::string name = (directory / ".images.XXXXXX").string();
-    file_ = mkstemp(name.data());
-    if (file_ < 0) fail("make", directory, errno);
+    file_ = FileDescriptor(mkostemp(name.data(), O_CLOEXEC));
+    if (!file_.is_open()) fail("make", directory, errno);
     unlink(name.c_str());
-}
-
-ImageStore::~ImageStore() {
-    close(file_);
 }
 
 std::size_t ImageStore::image_bytes() const {
@@ -42,7 +39,7 @@ std::size_t ImageStore::add(const ImageF& image) {
     const auto* bytes = reinterpret_cast<const char*>(image.pixels.data());
     for (std::size_t done = 0; done < image_bytes();) {
         const ssize_t written =
-            pwrite(file_, bytes + done, image_bytes() - done, static_cast<off_t>(count_ * image_bytes() + done));
+            pwrite(file_.get(), bytes + done, image_bytes() - done, static_cast<off_t>(count_ * image_bytes() + done));
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) fail("write", directory_, written < 0 ? errno : ENOSPC);
         done += static_cast<std::size_t>(written);
@@ -55,7 +52,7 @@ ImageF ImageStore::get(std::size_t index) const {
     auto* bytes = reinterpret_cast<char*>(image.pixels.data());
     for (std::size_t done = 0; done < image_bytes();) {
         const ssize_t got =
-            pread(file_, bytes + done, image_bytes() - done, static_cast<off_t>(index * image_bytes() + done));
+            pread(file_.get(), bytes + done, image_bytes() - done, static_cast<off_t>(index * image_bytes() + done));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) fail("read", directory_, got < 0 ? errno : EIO);
         done += static_cast<std::size_t>(got);

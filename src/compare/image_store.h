@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "process/file_descriptor.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -13,9 +14,6 @@ class ImageStore {
   public:
     /// The file lies in `directory`. Throws IoError if it cannot be made.
     ImageStore(const std::filesystem::path& directory, int width, int height, int channels);
-    ~ImageStore();
-    ImageStore(const ImageStore&) = delete;
-    ImageStore& operator=(const ImageStore&) = delete;
 
     /// Returns the number to get it back by. `image` has the store's size. Throws IoError if the disk is full.
     std::size_t add(const ImageF& image);
@@ -28,7 +26,7 @@ class ImageStore {
     int width_;
     int height_;
     int channels_;
-    int file_ = -1;
+    FileDescriptor file_;
     std::size_t count_ = 0;
 };
 
