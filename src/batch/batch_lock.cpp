@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstddef>
 #include <fstream>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -166,9 +165,7 @@ bool BatchLock::keep_alive() {
 BatchLocks::BatchLocks(const fs::path& output, LockTimes times) : directory_(output / ".etendue"), times_(times) {}
 
 fs::path BatchLocks::file_of(const std::string& image) const {
-    ContentHash hash;
-    hash.add(std::as_bytes(std::span(image)));
-    return directory_ / "locks" / (hex(hash.digest()) + ".json");
+    return directory_ / "locks" / (content_hex(image) + ".json");
 }
 
 void BatchLocks::require() const {

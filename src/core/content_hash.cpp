@@ -1,6 +1,7 @@
 #include "core/content_hash.h"
 
 #include "core/error.h"
+#include "core/system_error_text.h"
 
 #include <cerrno>
 #include <filesystem>
@@ -46,9 +47,15 @@ std::string hex(const ContentHash::Digest& digest) {
     return text;
 }
 
+std::string content_hex(std::string_view text) {
+    ContentHash hash;
+    hash.add(std::as_bytes(std::span(text)));
+    return hex(hash.digest());
+}
+
 ContentHash::Digest hash_file(const std::filesystem::path& path) {
     const auto fail = [&] {
-        throw IoError(fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno)));
+        throw IoError(fmt::format("cannot read {}: {}", path.string(), system_error_text(errno)));
     };
     // A pipe would be waited for, and a device read for ever.
     std::error_code ignored;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace etendue {
 
@@ -32,6 +33,9 @@ class ContentHash {
 
 /// Returns `digest` as 32 hexadecimal digits.
 [[nodiscard]] std::string hex(const ContentHash::Digest& digest);
+
+/// Returns the digest of `text` as 32 hexadecimal digits.
+[[nodiscard]] std::string content_hex(std::string_view text);
 
 /// Returns the digest of the bytes of the file `path`. Throws IoError if the file cannot be read.
 [[nodiscard]] ContentHash::Digest hash_file(const std::filesystem::path& path);

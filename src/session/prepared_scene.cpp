@@ -1,6 +1,7 @@
 #include "session/prepared_scene.h"
 
 #include "color/color_config.h"
+#include "core/content_hash.h"
 #include "loader/loader.h"
 #include "output/software_name.h"
 #include "picture/scene_completion.h"
@@ -29,13 +30,9 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
 }
 
 std::string settings_hash(const SceneDesc& scene, const RenderSettings& settings, PixelDepth depth) {
-    // FNV-1a, 64 bits, over exact texts; nobody attacks it, it only has to tell settings apart.
-    const std::string text = fmt::format("{}\n{}\n{}\n{}\n{}", software_name(), dump_without_settings(scene),
-                                         to_json_object(canonical_settings(settings, decides_files)),
-                                         static_cast<int>(depth), ColorConfig::environment_path().string());
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return fmt::format("{:016x}", hash);
+    return content_hex(fmt::format("{}\n{}\n{}\n{}\n{}", software_name(), dump_without_settings(scene),
+                                   to_json_object(canonical_settings(settings, decides_files)), static_cast<int>(depth),
+                                   ColorConfig::environment_path().string()));
 }
 
 std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {

@@ -38,10 +38,7 @@ RenderIdentity render_identity(const SceneDesc& scene, std::span<const InputFile
         for (int i = 2; identity.contains(unique); ++i) unique = fmt::format("{} ({})", name, i);
         identity[unique] = input.content;
     }
-    ContentHash content;
-    const std::string text = dump_without_settings(scene);
-    content.add(std::as_bytes(std::span(text)));
-    identity["scene"] = hex(content.digest());
+    identity["scene"] = content_hex(dump_without_settings(scene));
     return identity;
 }
 
