@@ -1,5 +1,6 @@
 #include "batch/batch_child.h"
 
+#include "batch/json_lookup.h"
 #include "core/error.h"
 #include "session/exit_code.h"
 #include "session/interrupt.h"
@@ -27,20 +28,9 @@ struct Answer {
     bool has_refused = false;  ///< its process has said so and ended by itself
 };
 
-/// Returns the text at `key` of an object; empty if there is none.
-std::string text_of(const nlohmann::json& json, const char* key) {
-    const auto found = json.find(key);
-    return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
 /// Returns what stands at `key` of `json`; null if that is no object, or has none.
 nlohmann::json value_of(const nlohmann::json& json, const char* key) {
     return json.is_object() ? json.value(key, nlohmann::json()) : nlohmann::json();
-}
-
-int number_of(const nlohmann::json& json, const char* key) {
-    const auto found = json.find(key);
-    return found != json.end() && found->is_number_integer() ? found->get<int>() : 0;
 }
 
 /// Runs `arguments` to their end, or until the user has no patience.
@@ -67,12 +57,11 @@ Answer ask(std::vector<std::string> arguments, const BatchOptions& options) try 
 
 SceneLook look_of(const Answer& answer, const nlohmann::json& outline) {
     SceneLook look{.error = answer.error};
-    if (!outline.is_object()) return look;
-    look.outline = {.width = number_of(outline, "width"),
-                    .height = number_of(outline, "height"),
-                    .spp = number_of(outline, "spp"),
-                    .integrator = text_of(outline, "integrator"),
-                    .camera = text_of(outline, "camera")};
+    look.outline = {.width = number_at<int>(outline, "/width").value_or(0),
+                    .height = number_at<int>(outline, "/height").value_or(0),
+                    .spp = number_at<int>(outline, "/spp").value_or(0),
+                    .integrator = text_at(outline, "/integrator"),
+                    .camera = text_at(outline, "/camera")};
     return look;
 }
 
@@ -109,17 +98,11 @@ std::string as_argument(const std::filesystem::path& path) {
 
 std::optional<ChildProgress> parse_progress(const std::string& line) {
     const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object()) return std::nullopt;
-    const auto phase = json.find("phase");
-    const auto fraction = json.find("fraction");
-    const auto seconds = json.find("seconds");
-    if (phase == json.end() || !phase->is_string() || fraction == json.end() || !fraction->is_number() ||
-        seconds == json.end() || !seconds->is_number())
-        return std::nullopt;
-    const auto samples = json.find("samples");
-    const bool has_samples = samples != json.end() && samples->is_number_unsigned();
-    return ChildProgress{phase->get<std::string>(), fraction->get<double>(), seconds->get<double>(),
-                         has_samples ? samples->get<std::uint64_t>() : 0};
+    std::string phase = text_at(json, "/phase");
+    const auto fraction = number_at<double>(json, "/fraction");
+    const auto seconds = number_at<double>(json, "/seconds");
+    if (phase.empty() || !fraction || !seconds) return std::nullopt;
+    return ChildProgress{std::move(phase), *fraction, *seconds, number_at<std::uint64_t>(json, "/samples").value_or(0)};
 }
 
 std::vector<std::string> render_arguments(const BatchTask& task, const BatchOptions& options, int threads) {
@@ -162,14 +145,11 @@ std::vector<std::string> display_arguments(const std::filesystem::path& statisti
     std::ifstream in(statistics);
     const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
     std::vector<std::string> arguments;
-    if (!json.is_object()) return arguments;
-    const nlohmann::json settings = json.value("settings", nlohmann::json::object());
-    for (const char* name : {"display", "view", "look"})
-        if (const std::string value = text_of(settings, (std::string("/color/") + name).c_str()); !value.empty())
-            arguments.insert(arguments.end(), {std::string("--") + name, value});
-    const nlohmann::json exposure = json.value("exposure", nlohmann::json::object());
-    if (const auto stops = exposure.find("stops"); stops != exposure.end() && stops->is_number())
-        arguments.insert(arguments.end(), {"--exposure", fmt::format("{}", stops->get<float>())});
+    for (const std::string name : {"display", "view", "look"})
+        if (const std::string value = text_at(json, "/settings/~1color~1" + name); !value.empty())
+            arguments.insert(arguments.end(), {"--" + name, value});
+    if (const auto stops = number_at<float>(json, "/exposure/stops"))
+        arguments.insert(arguments.end(), {"--exposure", fmt::format("{}", *stops)});
     return arguments;
 }
 
@@ -178,10 +158,8 @@ SceneLook probe_in_child(const BatchTask& task, const BatchOptions& options) {
     arguments.emplace_back("--probe");
     const Answer answer = ask(std::move(arguments), options);
     SceneLook look = look_of(answer, answer.json);
-    if (const nlohmann::json seconds = value_of(answer.json, "estimated_seconds"); seconds.is_number())
-        look.seconds = seconds.get<double>();
-    if (const nlohmann::json memory = value_of(answer.json, "estimated_memory_bytes"); memory.is_number_unsigned())
-        look.memory_bytes = memory.get<std::uint64_t>();
+    look.seconds = number_at<double>(answer.json, "/estimated_seconds");
+    look.memory_bytes = number_at<std::uint64_t>(answer.json, "/estimated_memory_bytes");
     // What is refused is refused before anything large is made.
     if (answer.has_refused) look.memory_bytes = 0;
     return look;
@@ -193,9 +171,9 @@ SceneLook inspect_in_child(const BatchTask& task, const BatchOptions& options) {
     Answer answer = ask(std::move(arguments), options);
     std::string errors;
     for (const nlohmann::json& problem : value_of(answer.json, "problems")) {
-        if (!problem.is_object() || text_of(problem, "severity") != "error") continue;
+        if (!problem.is_object() || text_at(problem, "/severity") != "error") continue;
         if (!errors.empty()) errors += '\n';
-        errors += text_of(problem, "text");
+        errors += text_at(problem, "/text");
     }
     if (!errors.empty()) answer.error = errors;
     return look_of(answer, value_of(answer.json, "image"));

@@ -1,5 +1,6 @@
 #include "batch/batch_ledger.h"
 
+#include "batch/json_lookup.h"
 #include "core/error.h"
 #include "core/system_error_text.h"
 #include "process/file_descriptor.h"
@@ -140,22 +141,15 @@ void LedgerHistory::read_new() {
 }
 
 void LedgerHistory::take(const std::string& line) {
-    const OrderedJson json = OrderedJson::parse(line, nullptr, false);
-    if (!json.is_object()) return;
-    const auto text = [&json](const char* key) {
-        const auto found = json.find(key);
-        return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
-    };
-    const std::string unit = text("unit");
+    const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
+    const std::string unit = text_at(json, "/unit");
     if (unit.empty()) return;
     for (const LedgerEventKind kind : kKinds) {
-        if (text("event") != event_name(kind)) continue;
-        const std::string error = text("error");
-        const auto code = json.find("exit_code");
-        const bool has_code = code != json.end() && code->is_number_integer();
+        if (text_at(json, "/event") != event_name(kind)) continue;
+        const std::string error = text_at(json, "/error");
         entries_[unit] = {.kind = kind,
-                          .host = text("host"),
-                          .exit_code = has_code ? std::optional(code->get<int>()) : std::nullopt,
+                          .host = text_at(json, "/host"),
+                          .exit_code = number_at<int>(json, "/exit_code"),
                           .error = error.substr(0, error.find('\n')),
                           .is_final = !json.contains("again"),
                           .is_recent = !is_first_read_};

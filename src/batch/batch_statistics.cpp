@@ -1,35 +1,14 @@
 #include "batch/batch_statistics.h"
 
-#include <fstream>
-#include <optional>
-#include <string>
+#include "batch/json_lookup.h"
 
-#include <nlohmann/json.hpp>
+#include <fstream>
 
 namespace etendue {
 
-namespace {
-
-using Json = nlohmann::json;
-
-/// Returns the number at `pointer`; none if there is something else.
-template <typename Number>
-std::optional<Number> number_at(const Json& json, const char* pointer) {
-    const Json::json_pointer place(pointer);
-    if (!json.contains(place) || !json[place].is_number()) return std::nullopt;
-    return json[place].get<Number>();
-}
-
-std::string text_at(const Json& json, const char* pointer) {
-    const Json::json_pointer place(pointer);
-    return json.contains(place) && json[place].is_string() ? json[place].get<std::string>() : std::string();
-}
-
-}  // namespace
-
 void read_statistics(const std::filesystem::path& file, BatchUnit& unit) {
     std::ifstream in(file);
-    const Json json = Json::parse(in, nullptr, false);
+    const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
     if (!json.is_object()) return;
     unit.width = number_at<int>(json, "/size/0").value_or(0);
     unit.height = number_at<int>(json, "/size/1").value_or(0);

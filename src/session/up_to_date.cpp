@@ -41,11 +41,16 @@ std::optional<Value> value_of(const nlohmann::json& json, const char* key, bool 
     return found->template get<Value>();
 }
 
+std::optional<double> number_at(const nlohmann::json& json, const char* pointer) {
+    const nlohmann::json::json_pointer place(pointer);
+    if (!json.contains(place) || !json[place].is_number()) return std::nullopt;
+    return json[place].get<double>();
+}
+
 /// How far the render of these statistics came when it was cut short.
 Staleness cut_short(const nlohmann::json& statistics) {
-    const auto spp = statistics.is_object() ? statistics.value("spp", nlohmann::json()) : nlohmann::json();
-    const double done = value_of<double>(spp, "done", &nlohmann::json::is_number).value_or(0.0);
-    const double requested = value_of<double>(spp, "requested", &nlohmann::json::is_number).value_or(0.0);
+    const double done = number_at(statistics, "/spp/done").value_or(0.0);
+    const double requested = number_at(statistics, "/spp/requested").value_or(0.0);
     if (!(done >= 0.0 && requested >= 1.0)) return {.reason = "was not finished", .is_unfinished = true};
     return {.reason = fmt::format("was interrupted at {} of {} spp", done, requested),
             .is_unfinished = true,
@@ -130,12 +135,6 @@ std::optional<RenderSettings> as_made(const nlohmann::json& statistics, RenderSe
         setting.place.write(settings, value);
     }
     return settings;
-}
-
-std::optional<double> number_at(const nlohmann::json& json, const char* pointer) {
-    const nlohmann::json::json_pointer place(pointer);
-    if (!json.contains(place) || !json[place].is_number()) return std::nullopt;
-    return json[place].get<double>();
 }
 
 /// True if the complete image of these statistics, which was made with the settings `made`, is what a render of `asked`
