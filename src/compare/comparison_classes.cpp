@@ -25,14 +25,8 @@ std::vector<ImageF> light_of_classes(const Variant& variant, const AovPlan& plan
     std::vector<ImageF> layers;
     if (!render.add_samples(kClassSamples, [] { return interrupt_requested().load(); })) return layers;
     const Rgb weights = context.colors.luminance_weights(variant.settings.color.working_space);
-    for (const AovOutput& output : plan.outputs) {
-        const ImageF colors = resolve_layer(render.state().film, output).pixels;
-        ImageF& layer = layers.emplace_back(colors.width, colors.height, 1);
-        const auto channels = static_cast<std::size_t>(colors.channels);
-        for (std::size_t i = 0; i < layer.pixels.size(); ++i)
-            layer.pixels[i] = colors.pixels[i * channels] * weights.r + colors.pixels[i * channels + 1] * weights.g +
-                              colors.pixels[i * channels + 2] * weights.b;
-    }
+    for (const AovOutput& output : plan.outputs)
+        layers.push_back(luminances(resolve_layer(render.state().film, output).pixels, weights));
     return layers;
 }
 

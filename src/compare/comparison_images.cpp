@@ -82,14 +82,6 @@ StrategyPlan plan_strategies(const ComparisonReport& report, const Variant& vari
     return plan;
 }
 
-ImageF luminances(const ImageF& rgba, const Rgb& weights) {
-    ImageF result(rgba.width, rgba.height, 1);
-    for (std::size_t i = 0; i < result.pixels.size(); ++i)
-        result.pixels[i] =
-            rgba.pixels[4 * i] * weights.r + rgba.pixels[4 * i + 1] * weights.g + rgba.pixels[4 * i + 2] * weights.b;
-    return result;
-}
-
 /// Returns the mean weight of the light in each pixel: what the weighted image has of the other; 0 where that is black.
 ImageF mean_weights(const ImageF& weighted, const ImageF& unweighted, const Rgb& weights) {
     ImageF result = luminances(weighted, weights);
@@ -110,8 +102,7 @@ void describe_strategies(StrategiesReport& report, std::span<const StrategyImage
     ImageF all(like.width, like.height, 1);
     for (std::size_t i = 0; i < weighted.size(); ++i) {
         const Strategy& strategy = weighted[i].strategy;
-        const int edges = strategy.s + strategy.t - 1;
-        ImageF& row = rows.try_emplace(edges, like.width, like.height, 1).first->second;
+        ImageF& row = rows.try_emplace(strategy.edges(), like.width, like.height, 1).first->second;
         const ImageF own = luminances(weighted[i].rgba, weights);
         for (std::size_t p = 0; p < own.pixels.size(); ++p) {
             row.pixels[p] += own.pixels[p];
@@ -129,7 +120,7 @@ void describe_strategies(StrategiesReport& report, std::span<const StrategyImage
         report.rows.push_back({edges, std::clamp(std::round(2.0 * stops) / 2.0, 0.0, kMostStops)});
         const double sum = mean_of(row);
         for (StrategyReport& strategy : report.strategies) {
-            if (strategy.s + strategy.t - 1 != edges) continue;
+            if (strategy.edges() != edges) continue;
             if (sum > 0.0) strategy.share = strategy.weighted_mean / sum;
             if (strategy.unweighted_mean > 0.0)
                 strategy.mean_weight = strategy.weighted_mean / strategy.unweighted_mean;
@@ -205,9 +196,9 @@ bool add_strategies(ReportImages& images, ComparisonReport& report, const Varian
     describe_strategies(result, strategies[0], strategies[1], weights);
     ReportImages made;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const int edges = wanted[i].s + wanted[i].t - 1;
         DisplayView of_row = view;
-        of_row.exposure += static_cast<float>(std::ranges::find(result.rows, edges, &StrategyRow::edges)->exposure);
+        of_row.exposure +=
+            static_cast<float>(std::ranges::find(result.rows, wanted[i].edges(), &StrategyRow::edges)->exposure);
         const auto key = [&](const char* kind) {
             return fmt::format("strategy/{}/{},{}", kind, wanted[i].s, wanted[i].t);
         };

@@ -299,6 +299,15 @@ std::string off_budget(const ComparisonReport& report) {
                        *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
 }
 
+ImageF luminances(const ImageF& image, const Rgb& weights) {
+    ImageF result(image.width, image.height, 1);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] = image.pixels[i * channels] * weights.r + image.pixels[i * channels + 1] * weights.g +
+                           image.pixels[i * channels + 2] * weights.b;
+    return result;
+}
+
 ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
                      const std::string& working_space, const MeasureContext& context) {
     const ImageF& expected = reference.of_round(0);

@@ -29,6 +29,9 @@ struct ErrorMaps {
 [[nodiscard]] ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
                                    const std::string& working_space, const MeasureContext& context);
 
+/// Returns the luminance of each pixel of `image`, whose first channels are R, G and B.
+[[nodiscard]] ImageF luminances(const ImageF& image, const Rgb& weights);
+
 /// A note if the times of variants, which were to be equal, differ by more than a tenth; else empty.
 [[nodiscard]] std::string unequal_times(const ComparisonReport& report);
 

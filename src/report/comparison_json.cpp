@@ -141,8 +141,7 @@ Json to_json(const RegionReport& region) {
 Json to_json(const StrategiesReport& report) {
     Json rows = Json::array();
     for (const StrategyReport& strategy : report.strategies) {
-        const int edges = strategy.s + strategy.t - 1;
-        if (rows.empty() || rows.back()["edges"] != edges) {
+        if (const int edges = strategy.edges(); rows.empty() || rows.back()["edges"] != edges) {
             const auto row = std::ranges::find(report.rows, edges, &StrategyRow::edges);
             rows.push_back({{"edges", edges},
                             {"exposure", row == report.rows.end() ? 0.0 : row->exposure},

@@ -137,6 +137,8 @@ struct StrategyReport {
     double unweighted_mean = 0.0;
     double share = 0.0;             ///< share of the luminance of the weighted images of its length, [0, 1]
     double mean_weight = kUnknown;  ///< mean of its weights, by the light that it makes; unknown where it makes none
+
+    [[nodiscard]] int edges() const { return s + t - 1; }
 };
 
 /// Paths of one length in the pyramid of strategies.
