@@ -3,6 +3,7 @@
 #include "core/content_hash.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/system_error_text.h"
 
 #include <array>
 #include <cerrno>
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void throw_errno(const char* what, const fs::path& path, int error) {
-    throw IoError(fmt::format("cannot {} {}: {}", what, path.string(), std::generic_category().message(error)));
+    throw IoError(fmt::format("cannot {} {}: {}", what, path.string(), system_error_text(error)));
 }
 
 /// True if `path` still is the name of the open file.

@@ -1,7 +1,9 @@
 #include "batch/batch_progress.h"
 
 #include "core/log.h"
+#include "core/process_time.h"
 #include "core/shown_text.h"
+#include "core/system_error_text.h"
 #include "session/progress_display.h"
 #include "session/usage_error.h"
 
@@ -11,7 +13,6 @@
 #include <ctime>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <fmt/chrono.h>
@@ -155,7 +156,7 @@ BatchProgress::BatchProgress(bool quiet, const std::filesystem::path& log, std::
     log_.open(log, std::ios::app);
     if (!log_)
         throw UsageError(fmt::format("--log '{}': the file cannot be opened for writing: {}", log.string(),
-                                     std::generic_category().message(errno)));
+                                     system_error_text(errno)));
 }
 
 BatchProgress::~BatchProgress() {
@@ -207,7 +208,7 @@ void BatchProgress::say_error(const std::string& text) {
 }
 
 double BatchProgress::elapsed() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
+    return seconds_since(start_);
 }
 
 }  // namespace etendue

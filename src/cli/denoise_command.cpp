@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/process_time.h"
 #include "denoise/fireflies.h"
 #include "denoise/layers.h"
 #include "denoise/nfor.h"
@@ -252,11 +253,11 @@ ExitCode run_denoise(const DenoiseArguments& arguments) {
         DenoiseInput input = read_input(arguments);
         if (!denoise_layers(input, arguments)) return interrupt_exit_code();
         write_denoised(input, arguments);
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        const double seconds = seconds_since(start);
         if (!arguments.quiet)
             log_info("{}: {}x{}, denoised {}; features {}; {:.1f} s", arguments.output, input.file.pixels.width,
                      input.file.pixels.height, layer_names(input.plan.lights), layer_names(input.plan.features),
-                     elapsed.count());
+                     seconds);
     } catch (const std::bad_alloc&) {
         throw IoError(fmt::format("there is not enough memory to denoise {}", arguments.image));
     }

@@ -103,4 +103,8 @@ Chromaticities chromaticities_of(const Matrix3d& m) {
             xy_of(m[0] + m[1] + m[2], m[3] + m[4] + m[5], m[6] + m[7] + m[8])};
 }
 
+std::vector<float> numbers_of(const Chromaticities& c) {
+    return {c.red[0], c.red[1], c.green[0], c.green[1], c.blue[0], c.blue[1], c.white[0], c.white[1]};
+}
+
 }  // namespace etendue

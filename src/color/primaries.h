@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace etendue {
 
@@ -27,6 +28,9 @@ using Matrix3d = std::array<double, 9>;
 
 /// Returns the matrix from one RGB space to another, whites adapted by Bradford.
 [[nodiscard]] Matrix3d rgb_to_rgb(const Chromaticities& from, const Chromaticities& to);
+
+/// Returns x and y of red, green, blue and white, as OpenEXR lists them.
+[[nodiscard]] std::vector<float> numbers_of(const Chromaticities& space);
 
 /// A space whose primaries somebody has published.
 struct PublishedPrimaries {

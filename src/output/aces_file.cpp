@@ -29,8 +29,7 @@ std::string comment_of(const OutputFrame& frame) {
 
 std::vector<ImageAttribute> aces_attributes(const OutputFrame& frame) {
     return {{"acesImageContainerFlag", 1},
-            {"chromaticities", std::vector<float>{kAp0.red[0], kAp0.red[1], kAp0.green[0], kAp0.green[1], kAp0.blue[0],
-                                                  kAp0.blue[1], kAp0.white[0], kAp0.white[1]}},
+            {"chromaticities", numbers_of(kAp0)},
             {"PixelAspectRatio", frame.pixel_aspect},
             {"comments", comment_of(frame)}};
 }

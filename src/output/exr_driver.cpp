@@ -1,5 +1,6 @@
 #include "output/exr_driver.h"
 
+#include "color/primaries.h"
 #include "core/error.h"
 #include "core/source_date.h"
 #include "output/cryptomatte.h"
@@ -32,9 +33,7 @@ Mat4f exr_world_to_ndc(const Mat4f& world_to_screen) {
 
 void add_chromaticities(const ColorConfig& config, const std::string& space, std::vector<ImageAttribute>& attributes) {
     try {
-        const Chromaticities c = config.chromaticities(space);
-        attributes.push_back({"chromaticities", std::vector<float>{c.red[0], c.red[1], c.green[0], c.green[1],
-                                                                   c.blue[0], c.blue[1], c.white[0], c.white[1]}});
+        attributes.push_back({"chromaticities", numbers_of(config.chromaticities(space))});
     } catch (const SceneError&) {
         // A config without an interchange space does not say what its primaries are; the image is good all the same.
     }

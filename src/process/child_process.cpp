@@ -1,6 +1,7 @@
 #include "process/child_process.h"
 
 #include "core/error.h"
+#include "core/system_error_text.h"
 #include "process/memory_left.h"
 #include "process/pipe.h"
 
@@ -9,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ namespace etendue {
 namespace {
 
 [[noreturn]] void throw_start_error(const std::filesystem::path& program, int error) {
-    throw IoError(fmt::format("cannot start {}: {}", program.string(), std::generic_category().message(error)));
+    throw IoError(fmt::format("cannot start {}: {}", program.string(), system_error_text(error)));
 }
 
 Pipe pipe_for(const std::filesystem::path& program) {

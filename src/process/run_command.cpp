@@ -1,12 +1,12 @@
 #include "process/run_command.h"
 
 #include "core/error.h"
+#include "core/system_error_text.h"
 #include "process/pipe.h"
 
 #include <array>
 #include <cerrno>
 #include <cstddef>
-#include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace etendue {
 namespace {
 
 [[noreturn]] void throw_error(const std::string& program, int error) {
-    throw IoError(fmt::format("cannot run {}: {}", program, std::generic_category().message(error)));
+    throw IoError(fmt::format("cannot run {}: {}", program, system_error_text(error)));
 }
 
 Pipe pipe_to(const std::string& program) {

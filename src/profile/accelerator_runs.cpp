@@ -1,12 +1,12 @@
 #include "profile/accelerator_runs.h"
 
+#include "core/vec.h"
 #include "session/interrupt.h"
 #include "world/accelerated_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -112,7 +112,7 @@ VisitMap map_visits(const World& world, const AcceleratedScene& scene, const std
 
 /// Returns the height of the hilly ground at a place in [0, 1]².
 float ground_height(float x, float z) {
-    constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
+    constexpr float kTurn = 2.0f * kPi;
     return 0.06f * std::sin(kTurn * 2.0f * x) * std::cos(kTurn * 3.0f * z) +
            0.02f * std::sin(kTurn * (11.0f * x + 7.0f * z));
 }

@@ -19,9 +19,8 @@ namespace {
 constexpr float kChromaticityTolerance = 1e-3f;
 
 bool are_close(const std::array<float, 8>& file, const Chromaticities& space) {
-    const std::array<float, 8> known{space.red[0],  space.red[1],  space.green[0], space.green[1],
-                                     space.blue[0], space.blue[1], space.white[0], space.white[1]};
-    return std::ranges::equal(file, known, [](float a, float b) { return std::abs(a - b) <= kChromaticityTolerance; });
+    return std::ranges::equal(file, numbers_of(space),
+                              [](float a, float b) { return std::abs(a - b) <= kChromaticityTolerance; });
 }
 
 std::optional<Chromaticities> chromaticities_of(const std::string& space, const ColorConfig& colors) {

@@ -112,7 +112,7 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
         render_strategies(world, one, wanted, options, threads, interrupt_requested(),
                           [&](const RenderProgress& progress) { display.update(progress); });
     if (images.size() < wanted.size()) return;
-    if (!frame.output_space.empty() && frame.output_space != frame.working_space) {
+    if (is_to_be_converted(frame)) {
         // In place, since there is no room for another of each.
         for (StrategyImage& image : images) convert_space(image.rgba, frame.working_space, frame.output_space, colors);
         frame.working_space = frame.output_space;
