@@ -12,15 +12,6 @@ namespace etendue {
 
 namespace {
 
-/// Returns what to multiply the sums of a pixel by. Dividing by the weights keeps even regions even. Where a filter
-/// with negative parts has by chance left little weight (a few samples), their number, which is the weight's mean,
-/// stands in.
-double scale_of(const PixelSum& p) {
-    const auto count = static_cast<double>(p.samples);
-    const double weight = p.weight > 0.5 * count ? p.weight : count;
-    return weight > 0.0 ? 1.0 / weight : 0.0;
-}
-
 /// sqrt(s / (1 - s)) for the share `part` / `whole`; 0 if it is none or all.
 double stretch_to_half(std::uint64_t part, std::uint64_t whole) {
     if (part == 0 || part >= whole) return 0.0;
@@ -124,8 +115,8 @@ Film Film::as_half(const Film& part) const {
         const PixelSum& some = part.pixels_[i];
         const double stretch = stretch_to_half(some.samples, all.samples);
         const auto count = static_cast<double>(all.samples / 2);
-        const double all_scale = count * scale_of(all);
-        const double some_scale = count * scale_of(some);
+        const double all_scale = count * all.scale();
+        const double some_scale = count * some.scale();
         const auto even = [&](double of_all, double of_some) {
             return of_all * all_scale + stretch * (of_some * some_scale - of_all * all_scale);
         };
@@ -153,7 +144,7 @@ std::vector<float> Film::resolve() const {
     std::vector<float> image;
     image.reserve(pixels_.size() * 4);
     for (const PixelSum& p : pixels_) {
-        const double scale = scale_of(p);
+        const double scale = p.scale();
         for (const double sum : {p.r, p.g, p.b, p.alpha}) image.push_back(static_cast<float>(sum * scale));
     }
     if (splats_) splats_->add_to(image, 4, window_, SplatFilm::kBeauty);
@@ -168,7 +159,7 @@ std::uint64_t Film::sample_count() const {
 
 std::array<double, 3> Film::eye_mean(int x, int y) const {
     const PixelSum& p = pixels_[index(x, y)];
-    const double scale = scale_of(p);
+    const double scale = p.scale();
     return {p.r * scale, p.g * scale, p.b * scale};
 }
 
@@ -180,7 +171,7 @@ std::vector<float> Film::resolve_sums(std::size_t first, std::size_t count) cons
     std::vector<float> means;
     means.reserve(pixels_.size() * count);
     for (std::size_t p = 0; p < pixels_.size(); ++p) {
-        const double scale = scale_of(pixels_[p]);
+        const double scale = pixels_[p].scale();
         for (const double sum : layers_.sums(p).subspan(first, count)) means.push_back(static_cast<float>(sum * scale));
     }
     return means;
@@ -214,7 +205,7 @@ std::vector<float> Film::resolve_variance() const {
     variance.reserve(pixels_.size() * 3);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const PixelSum& p = pixels_[i];
-        const double scale = scale_of(p);
+        const double scale = p.scale();
         // Of samples that are as far from the mean of all as from their own, one is too many.
         const auto count = static_cast<double>(p.samples);
         const double unbiased = p.samples > 1 ? count / (count - 1.0) : 0.0;
@@ -254,7 +245,7 @@ std::vector<std::vector<DeepSample>> Film::resolve_deep() const {
     image.reserve(pixels_.size());
     const double splat_scale = splats_ ? splats_->scale() : 0.0;
     for (std::size_t p = 0; p < pixels_.size(); ++p)
-        image.push_back(deep_samples(layers_.deep().bins(p), scale_of(pixels_[p]), splat_scale));
+        image.push_back(deep_samples(layers_.deep().bins(p), pixels_[p].scale(), splat_scale));
     return image;
 }
 
@@ -262,7 +253,7 @@ std::vector<float> Film::resolve_matte(std::size_t matte, std::size_t ranks) con
     assert(matte < layers_.layout().mattes);
     std::vector<float> values(pixels_.size() * ranks * 2, 0.0f);
     for (std::size_t p = 0; p < pixels_.size(); ++p) {
-        const double scale = scale_of(pixels_[p]);
+        const double scale = pixels_[p].scale();
         const std::vector<MatteShare> shares = layers_.mattes().ranked(p, matte);
         for (std::size_t rank = 0; rank < std::min(ranks, shares.size()); ++rank) {
             float* const value = &values[(p * ranks + rank) * 2];

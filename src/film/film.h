@@ -17,6 +17,14 @@
 
 namespace etendue {
 
+/// Returns what to multiply sums by whose samples have this weight together. Dividing by the weights keeps even regions
+/// even. Where a filter with negative parts has by chance left little weight (a few samples), their number, which is
+/// the weight's mean, stands in.
+[[nodiscard]] inline double scale_of(double weight, double samples) {
+    const double divisor = weight > 0.5 * samples ? weight : samples;
+    return divisor > 0.0 ? 1.0 / divisor : 0.0;
+}
+
 /// Sums of one pixel, in double because they grow. 48 bytes.
 struct PixelSum {
     double r = 0.0;
@@ -44,6 +52,7 @@ struct PixelSum {
         weight += other.weight;
         samples += other.samples;
     }
+    [[nodiscard]] double scale() const { return scale_of(weight, static_cast<double>(samples)); }
 };
 
 /// The pixels of one tile while it is rendered; used by one thread.

@@ -7,13 +7,6 @@ namespace etendue {
 
 namespace {
 
-/// Returns what to multiply the sums of a bucket by: as Film does with those of a pixel, the samples' number stands in
-/// where a filter with negative parts has left little weight.
-double bucket_scale(double weight, double samples) {
-    const double divisor = weight > 0.5 * samples ? weight : samples;
-    return divisor > 0.0 ? 1.0 / divisor : 0.0;
-}
-
 /// The light paths of each bucket: one for each of its samples.
 std::vector<double> light_paths_of(const Film& film, const BucketLayers& buckets) {
     std::vector<double> paths(buckets.count, 0.0);
@@ -48,7 +41,7 @@ class RowOfMeans {
         for (std::size_t b = 0; b < buckets_.count; ++b) {
             for (std::size_t x = 0; x < width; ++x) {
                 const std::span<const double> sums = film_.layers().sums(first_pixel_ + x);
-                const double scale = bucket_scale(sums[first_value() + b], samples(x, b));
+                const double scale = scale_of(sums[first_value() + b], samples(x, b));
                 for (std::size_t c = 0; c < 3; ++c)
                     means_[b][3 * x + c] = static_cast<float>(sums[3 * (buckets_.first_light + b) + c] * scale);
             }
