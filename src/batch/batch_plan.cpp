@@ -21,8 +21,19 @@ namespace etendue {
 
 namespace {
 
+/// Returns `changes_of_sums` for an image that was rendered before; empty if its scene cannot be loaded.
+std::string changes_since_checkpoint(const PlannedUnit& unit, const OutputPaths& output, const BatchOptions& options) {
+    try {
+        const SettingsOverrides overrides = overrides_of(unit.task.job, options.overrides);
+        return changes_of_sums(output, prepare_scene(unit.task.job.scene, overrides).scene.settings);
+    } catch (const std::exception&) {
+        return "";
+    }
+}
+
 /// The reason of an image that is not whole, with what is known of its past.
-void describe_unfinished(PlannedUnit& unit, const Staleness& stale, const LedgerHistory& history) {
+void describe_unfinished(PlannedUnit& unit, const OutputPaths& output, const Staleness& stale,
+                         const BatchOptions& options, const LedgerHistory& history) {
     const LedgerHistory::Entry* const last = history.find(unit.task.id);
     unit.reason = stale.reason;
     if (last != nullptr && last->kind == LedgerEventKind::UnitFailed) unit.reason = "failed last time";
@@ -30,6 +41,12 @@ void describe_unfinished(PlannedUnit& unit, const Staleness& stale, const Ledger
         unit.reason = "was not tried last time, as its scene was invalid";
     if (!CheckpointFiles(unit.task.job.output).exist()) return;
     if (unit.reason == "never rendered") unit.reason = "was interrupted";
+    const std::string changed = changes_since_checkpoint(unit, output, options);
+    unit.resumes = changed.empty();
+    if (!unit.resumes) {
+        unit.reason += ", begins anew as its settings changed" + changed;
+        return;
+    }
     unit.reason += ", goes on from a checkpoint";
     unit.done = stale.done;
 }
@@ -69,8 +86,9 @@ void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const L
     unit.seen = FileStamp::of(output.json);
     unit.reason.clear();
     unit.done = 0.0;
+    unit.resumes = true;
     if (const auto stale = why_unfinished(output)) {
-        describe_unfinished(unit, *stale, history);
+        describe_unfinished(unit, output, *stale, options, history);
     } else if (force) {
         unit.reason = kForced;
     } else if (const auto outdated = why_outdated(output, unit.task.job.scene)) {

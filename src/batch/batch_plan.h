@@ -32,6 +32,7 @@ struct PlannedUnit {
     double done = 0.0;                            ///< part of its samples that a checkpoint holds, [0, 1]
     std::optional<double> estimated_seconds{};    ///< seconds for what is left; if it is stale and a probe was possible
     std::optional<std::uint64_t> memory_bytes{};  ///< bytes that its process will need; none if nobody knows
+    bool resumes = true;                          ///< with its checkpoint, if there is one
     FileStamp seen{};                             ///< the statistics beside the image, when they were looked at
     ImageOutline outline{};                       ///< outline of the image, as far as it was found out
     std::string error{};  ///< why it cannot be rendered, of any number of lines; empty if nothing is known to be wrong

@@ -224,7 +224,7 @@ BatchRunner::Beginning BatchRunner::begin_under(BatchLock lock, std::size_t inde
         if (was_made_elsewhere(index, work->lock)) return Beginning::Over;
         fs::create_directories(plan_[index].task.job.output.parent_path());
         const bool is_forced = plan_[index].reason == kForced;
-        work->how = {.resume = !is_forced, .force = is_forced};
+        work->how = {.resume = !is_forced && plan_[index].resumes, .force = is_forced};
         record_.unit(index).host = record_.report().host;
         const Beginning beginning = make(*work);
         if (beginning == Beginning::UnderWay) work_.push_back(std::move(work));

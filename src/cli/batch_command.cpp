@@ -6,6 +6,7 @@
 #include "batch/batch_runner.h"
 #include "batch/batch_table.h"
 #include "batch/batch_units.h"
+#include "cli/command_mistakes.h"
 #include "cli/command_options.h"
 #include "cli/commands.h"
 #include "cli/program.h"
@@ -89,8 +90,8 @@ void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitC
     const CommandResult result = run_command(
         {"env", "ETENDUE_OUTPUT=" + report.output_directory,
          fmt::format("ETENDUE_EXIT_CODE={}", static_cast<int>(code)), fmt::format("ETENDUE_RENDERED={}", sum.rendered),
-         fmt::format("ETENDUE_UP_TO_DATE={}", sum.up_to_date), fmt::format("ETENDUE_FAILED={}", sum.failed), "sh", "-c",
-         options.on_finish});
+         fmt::format("ETENDUE_UP_TO_DATE={}", sum.up_to_date), fmt::format("ETENDUE_FAILED={}", sum.failed),
+         fmt::format("ETENDUE_NOT_STARTED={}", sum.not_started), "sh", "-c", options.on_finish});
     for (const std::string& text : {result.out, result.err})
         if (!text.empty()) progress.say("--on-finish: " + text.substr(0, text.find_last_not_of('\n') + 1));
     if (result.exit_code != 0)
@@ -140,6 +141,9 @@ ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, cons
 /// port `live`, unless that is none.
 ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live, std::optional<BatchProgress>& progress,
                     BatchReport& report) {
+    // Not by CLI11: --on-finish is to hear of it.
+    for (const std::string& root : options.roots)
+        if (std::error_code error; !fs::exists(root, error)) throw UsageError(missing_in_words("DIRS", root));
     check_options(options.overrides);
     if (!options.name_pattern.empty()) check_name_pattern(options.name_pattern);
     const bool needs_times = options.order == BatchOrder::Shortest || options.order == BatchOrder::Longest;
@@ -226,8 +230,7 @@ std::uint64_t parse_memory(const char* option, const std::string& text) {
 /// Adds what says which images there are, and which of them are made first.
 void add_image_options(CLI::App& command, BatchOptions& options) {
     command.add_option("DIRS", options.roots, "Directories to look for scene directories in, or glTF files")
-        ->required()
-        ->check(CLI::ExistingPath);
+        ->required();
     command.add_option("-o,--output", options.output, "Directory for the images; made if it does not exist")
         ->required()
         ->type_name("DIR");
@@ -334,7 +337,8 @@ void add_message_options(CLI::App& command, BatchOptions& options) {
     command
         .add_option("--on-finish", options.on_finish,
                     "Command for sh -c at the end of the batch; $ETENDUE_OUTPUT, $ETENDUE_EXIT_CODE, "
-                    "$ETENDUE_RENDERED, $ETENDUE_UP_TO_DATE and $ETENDUE_FAILED tell it what came of that")
+                    "$ETENDUE_RENDERED, $ETENDUE_UP_TO_DATE, $ETENDUE_FAILED and $ETENDUE_NOT_STARTED tell it what "
+                    "came of that")
         ->type_name("COMMAND");
     command.add_flag("--quiet", options.quiet, "No progress, notes, warnings or summary; errors only");
     command.add_flag("--json", options.json, "Print the report, or with --dry-run the plan, as JSON on stdout");

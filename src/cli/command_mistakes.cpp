@@ -71,23 +71,29 @@ std::string after(const std::string& message, std::string_view before) {
     return at == std::string::npos ? "" : message.substr(at + before.size());
 }
 
+std::string missing_in_words(std::string_view option, const char* what, const std::string& path) {
+    const bool is_glob = path.find_first_of("*?[") != std::string::npos;
+    return fmt::format("{}: there is no {} '{}'{}", option, what, shown(path),
+                       is_glob ? ": the shell found nothing that the pattern matches" : "");
+}
+
 /// Says in words of its own that a file is not there.
 std::string invalid(const std::string& message) {
     for (const char* before : {"File does not exist: ", "Directory does not exist: ", "Path does not exist: "}) {
         const std::string path = after(message, before);
         if (path.empty()) continue;
-        // Where both would do, the name tells which was meant.
-        const bool is_file = *before == 'F' || (*before == 'P' && std::filesystem::path(path).has_extension());
-        const char* const what = is_file ? "file" : "directory";
         const std::string name = message.substr(0, message.find(':'));
-        const bool is_glob = path.find_first_of("*?[") != std::string::npos;
-        return fmt::format("{}: there is no {} '{}'{}", name, what, shown(path),
-                           is_glob ? ": the shell found nothing that the pattern matches" : "");
+        if (*before == 'P') return missing_in_words(name, path);
+        return missing_in_words(name, *before == 'F' ? "file" : "directory", path);
     }
     return message;
 }
 
 }  // namespace
+
+std::string missing_in_words(std::string_view option, const std::string& path) {
+    return missing_in_words(option, std::filesystem::path(path).has_extension() ? "file" : "directory", path);
+}
 
 std::string mistake_in_words(const CLI::App& app, const CLI::ParseError& error) {
     const CommandHelp command = describe_command(given_command(app));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace CLI {
 class App;
@@ -9,6 +10,9 @@ class ParseError;
 }  // namespace CLI
 
 namespace etendue {
+
+/// Says that what was given to `option` is not there: a file if `path` has an extension, else a directory.
+[[nodiscard]] std::string missing_in_words(std::string_view option, const std::string& path);
 
 /// Says what is wrong with a command line, where, and what to do about it, after "error: ". `app` has parsed as far as
 /// it could.

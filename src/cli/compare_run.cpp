@@ -258,7 +258,10 @@ ExitCode run_compare(const CompareArguments& arguments) {
         for (const std::string& note : plan.reference.notes) log_warning("note: {}", note);
     const std::vector<VariantRenders> renders = render_variants(plan.variants, request, store, threads);
     if (page) page->enter(interrupt_requested() ? "stopped" : "measure");
-    if (renders.front().seeds.empty()) return interrupt_exit_code();
+    if (renders.front().seeds.empty()) {
+        if (!arguments.quiet) log_info("interrupted before all variants were rendered once: there is no report");
+        return interrupt_exit_code();
+    }
 
     Findings found = measure_renders(arguments, plan, request, renders, of_classes, context);
     // What was measured must not be lost with pictures that cannot be made.

@@ -30,6 +30,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace etendue {
 
@@ -62,6 +63,29 @@ void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
     const PixelRect& all = state.film.splat_window();
     if (!merged.has_one_window && state.film.window() != all)
         log_warning("note: the parts have the pixels {} of {}", text_of(state.film.window()), text_of(all));
+}
+
+/// Returns `settings`, a JSON object by JSON pointers, with `crop` as their window; without one if that is null.
+std::string with_crop(const std::string& settings, const nlohmann::json& crop) {
+    nlohmann::json object = nlohmann::json::parse(settings);
+    if (crop.is_null())
+        object.erase("/crop");
+    else
+        object["/crop"] = crop;
+    return object.dump();
+}
+
+/// Says of an image of parts with several windows what a render of all these pixels would say: the description is that
+/// of the first part, which has its own window only.
+void describe_window(const RenderState& state, ImageDescription& image) {
+    RenderStatistics& statistics = image.statistics;
+    const PixelRect& window = state.film.window();
+    const bool is_whole = window == state.film.splat_window();
+    statistics.settings_hash = is_whole ? statistics.hash_of_whole : "";
+    const nlohmann::json crop =
+        is_whole ? nlohmann::json() : nlohmann::json{window.x0, window.y0, window.x1, window.y1};
+    statistics.requested_settings = with_crop(statistics.requested_settings, crop);
+    statistics.settings = image.frame.settings = with_crop(statistics.settings, crop);
 }
 
 /// Throws UsageError for names of files that can be neither parts nor what is made of them.
@@ -132,8 +156,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
     image.statistics.command = arguments.command;
     const auto spp_requested = static_cast<std::uint32_t>(std::max(image.statistics.spp_requested, 0));
     const bool complete = is_whole(merged, spp_requested);
-    // That of the first part, which is of the settings for its own window.
-    if (!merged.has_one_window) image.statistics.settings_hash.clear();
+    if (!merged.has_one_window) describe_window(state, image);
     describe_state(image, state, complete, "merged");
     if (is_partial(output)) {
         write_checkpoint(output, merged.sum.identity, merged.sum.description, state);
@@ -143,8 +166,9 @@ ExitCode run_merge(const MergeArguments& arguments) {
     }
     const PixelRect& window = state.film.window();
     if (!arguments.quiet)
-        log_info("{}: {} parts, {}x{}, {} spp{}", output.string(), arguments.parts.size(), window.width(),
-                 window.height(), state.spp_done, complete || is_partial(output) ? "" : ", incomplete");
+        log_info("{}: {} part{}, {}x{}, {} spp{}", output.string(), arguments.parts.size(),
+                 arguments.parts.size() == 1 ? "" : "s", window.width(), window.height(), state.spp_done,
+                 complete || is_partial(output) ? "" : ", incomplete");
     if (arguments.json) print_data(to_json(image.statistics));
     return ExitCode::Success;
 }
@@ -175,7 +199,9 @@ void add_merge_command(CLI::App& app, Action& action) {
         "all\n"
         "of the same scene, settings and version, which is checked, as is that no sample is there twice and no pixel "
         "has\n"
-        "fewer than the others. If samples or pixels are missing, the image is marked incomplete. The image is that of "
+        "fewer than the others; windows must tile a rectangle. If samples are missing, or pixels around several "
+        "windows, "
+        "the image is marked incomplete. The image is that of "
         "a single render but for the order in which sums were added "
         "(1e-6).\n"
         "The memory it takes is that of two parts and the image: 48 bytes a pixel, 72 with light subpaths,\n"

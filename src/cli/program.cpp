@@ -69,6 +69,7 @@ ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 int run_program(int argc, char** argv) {
+    keep_standard_descriptors();
     try {
         (void)ray_code();
         (void)source_date();

@@ -4,9 +4,11 @@
 #include "core/shown_text.h"
 #include "core/system_error_text.h"
 
+#include <array>
 #include <cerrno>
 #include <cstddef>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,6 +26,14 @@ void print_data(std::string_view data) {
         if (written < 0) throw IoError(fmt::format("cannot write to standard output: {}", system_error_text(errno)));
         data.remove_prefix(static_cast<std::size_t>(written));
     }
+}
+
+void keep_standard_descriptors() {
+    // For the other direction: using them is an error still. What is said on standard error is lost in any case.
+    constexpr std::array kDirections{O_WRONLY, O_RDONLY, O_WRONLY};
+    for (int descriptor = 0; descriptor < static_cast<int>(kDirections.size()); ++descriptor)
+        if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+            (void)::open("/dev/null", kDirections.at(static_cast<std::size_t>(descriptor)));
 }
 
 }  // namespace etendue

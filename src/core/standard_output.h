@@ -12,4 +12,8 @@ void print_text(std::string_view text);
 /// Prints JSON or another text for programs as it is. Throws IoError as well.
 void print_data(std::string_view data);
 
+/// Opens those of the standard descriptors that are closed, so that no other file gets their numbers: writing to
+/// standard output then fails as it would have.
+void keep_standard_descriptors();
+
 }  // namespace etendue

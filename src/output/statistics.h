@@ -63,6 +63,7 @@ struct RenderStatistics {
     std::optional<int> frame;         ///< number of this frame in its sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
     std::string settings_hash;        ///< equal for equal settings
+    std::string hash_of_whole;        ///< that of the settings without a crop window; not in JSON
     std::string settings;             ///< all that were rendered with, as a JSON object by JSON pointers
     std::string requested_settings;  ///< settings that are not the default and decide the contents of files, unresolved
     std::string command;             ///< the command line; empty if there was none

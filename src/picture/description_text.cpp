@@ -107,6 +107,7 @@ Json to_object(const RenderStatistics& s) {
             {"frame", s.frame ? Json(*s.frame) : Json()},
             {"time_code", s.time_code ? Json(*s.time_code) : Json()},
             {"settings_hash", s.settings_hash},
+            {"hash_of_whole", s.hash_of_whole},
             {"settings", s.settings},
             {"requested_settings", s.requested_settings},
             {"command", s.command},
@@ -128,6 +129,7 @@ RenderStatistics to_statistics(const Json& json) {
     if (!json.at("frame").is_null()) s.frame = json.at("frame").get<int>();
     if (!json.at("time_code").is_null()) s.time_code = json.at("time_code").get<double>();
     json.at("settings_hash").get_to(s.settings_hash);
+    json.at("hash_of_whole").get_to(s.hash_of_whole);
     json.at("settings").get_to(s.settings);
     json.at("requested_settings").get_to(s.requested_settings);
     json.at("command").get_to(s.command);

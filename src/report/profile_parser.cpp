@@ -157,8 +157,8 @@ ProfileBaseline parse_profile(const std::string& json, const std::string& file) 
     try {
         const nlohmann::json parsed = nlohmann::json::parse(json);
         return parse_document(Document(parsed, file));
-    } catch (const nlohmann::json::exception& error) {
-        throw SceneError({file, ""}, fmt::format("is no profile.json: {}", error.what()));
+    } catch (const nlohmann::json::exception&) {
+        throw SceneError({file, ""}, "is no profile.json: it is no JSON, or damaged");
     }
 }
 

@@ -64,6 +64,9 @@ class SceneRender {
         report_problems();
         // Before names are resolved: batch compares it with that of a scene that was only prepared.
         const std::string hash = settings_hash(scene_, request_.overrides.depth);
+        RenderSettings of_whole = scene_.settings;
+        of_whole.film.crop.reset();
+        const std::string hash_of_whole = settings_hash(scene_, of_whole, request_.overrides.depth);
         const std::string requested = requested_settings(scene_.settings);
         to_choose_ = replace_auto(scene_.settings);
         options_ = options_of(scene_.settings);
@@ -73,7 +76,9 @@ class SceneRender {
         options_.aovs = aovs_.set;
         check_outputs({request_, output_, scene_, aovs_, options_, *integrator_});
         hash_inputs(scene_, prepared.inputs);
-        describe_scene(prepared, hash, requested);
+        describe_scene(prepared, requested);
+        description_.statistics.settings_hash = hash;
+        description_.statistics.hash_of_whole = hash_of_whole;
     }
 
     SceneRenderResult run() {
@@ -149,14 +154,13 @@ class SceneRender {
             log_warning("{}", text);
     }
 
-    void describe_scene(PreparedScene& prepared, const std::string& hash, const std::string& requested) {
+    void describe_scene(PreparedScene& prepared, const std::string& requested) {
         const std::string working_space = resolve_colors(scene_.settings, colors_);
         description_ = describe_settings(scene_, aovs_);
         description_.depth = request_.overrides.depth;
         RenderStatistics& s = description_.statistics;
         s.load = prepared.load;
         s.inputs = std::move(prepared.inputs);
-        s.settings_hash = hash;
         s.requested_settings = requested;
         s.command = request_.command;
         s.threads = threads_.thread_count();

@@ -83,14 +83,16 @@ std::optional<std::vector<InputFile>> inputs_of(const nlohmann::json& statistics
     return std::nullopt;
 }
 
-/// Returns ": spp: 16 -> 32" if the statistics tell with which settings the image was made, and some have changed.
-std::string changes(const nlohmann::json& statistics, const RenderSettings& settings) try {
+/// Returns ": spp: 16 -> 32" if the statistics tell with which settings the image was made, and some of those that
+/// `takes_part` is true for have changed.
+std::string changes(const nlohmann::json& statistics, const RenderSettings& settings,
+                    bool (*takes_part)(Decides decides)) try {
     const auto requested = value_of<nlohmann::json>(statistics, "requested_settings", &nlohmann::json::is_object);
     if (!requested) return "";
     // In the words of one writer of JSON.
-    SettingTexts after = canonical_settings(settings, decides_files);
+    SettingTexts after = canonical_settings(settings, takes_part);
     for (auto& [pointer, text] : after) text = nlohmann::json::parse(text).dump();
-    SettingTexts before = canonical_settings(RenderSettings(), decides_files);
+    SettingTexts before = canonical_settings(RenderSettings(), takes_part);
     for (auto& [pointer, text] : before) {
         const auto was = requested->find(pointer);
         text = was != requested->end() ? was->dump() : nlohmann::json::parse(text).dump();
@@ -219,7 +221,7 @@ std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc
             return Staleness{.reason = fmt::format("input {} is new", input.filename().string())};
     const auto hash = value_of<std::string>(statistics, "settings_hash", &nlohmann::json::is_string);
     if (hash == settings_hash(scene, depth)) return std::nullopt;
-    Staleness stale{.reason = fmt::format("settings changed{}", changes(statistics, scene.settings))};
+    Staleness stale{.reason = fmt::format("settings changed{}", changes(statistics, scene.settings, decides_files))};
     const auto is_of = [&](const std::optional<RenderSettings>& made) {
         return made && hash == settings_hash(scene, *made, depth);
     };
@@ -229,6 +231,11 @@ std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc
     if (is_of(made) || is_of(as_made(statistics, scene.settings, decides_no_sums)))
         stale.done = std::min(1.0, number_at(statistics, "/spp/done").value_or(0.0) / scene.settings.spp);
     return stale;
+}
+
+std::string changes_of_sums(const OutputPaths& output, const RenderSettings& settings) {
+    return changes(read_statistics(output.json), settings,
+                   [](Decides decides) { return decides_pixels(decides) || decides == Decides::Window; });
 }
 
 bool is_up_to_date(const OutputPaths& output, const fs::path& path, const SceneDesc& scene, PixelDepth depth) {

@@ -42,6 +42,10 @@ struct Staleness {
 [[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc& scene,
                                                     PixelDepth depth);
 
+/// Returns ": seed: 3 -> 4" if the files of the interrupted render `output` tell that a render with `settings` cannot
+/// go on from its checkpoint; empty if they do not.
+[[nodiscard]] std::string changes_of_sums(const OutputPaths& output, const RenderSettings& settings);
+
 /// True if there is no reason of any kind; `path` is where `scene` was loaded from.
 [[nodiscard]] bool is_up_to_date(const OutputPaths& output, const std::filesystem::path& path, const SceneDesc& scene,
                                  PixelDepth depth);

@@ -233,6 +233,7 @@ TEST_F(Batch, WhatIsToFollowFollowsAnyEnd) {
     add_scene("a");
     EXPECT_EQ(end_of({"--failed"}), 0) << "none has";
     EXPECT_EQ(end_of({"--display", "none"}), 2);
+    EXPECT_EQ(end_of({"gone"}), 2) << "a directory on a disk that is not mounted";
     fs::remove_all(work_ / "out");
     fs::create_directories(work_ / "out/ledger.jsonl");
     EXPECT_EQ(end_of({}), 1) << "nothing can be written there";

@@ -180,15 +180,18 @@ TEST_F(CommandLine, WhatCannotBePrintedIsAnError) {
     const std::string error_file = work_ / "err";
     for (const std::string& command :
          {std::string("--version"), std::string("--help"), std::string("help render"), std::string("render --help"),
-          "inspect --json " + box, "inspect " + box, "batch --dry-run --no-probe --json -o out " + scenes()}) {
-        const int status = std::system(
-            fmt::format("cd {} && {} {} >/dev/full 2>{}", work_.string(), program_file().string(), command, error_file)
-                .c_str());
-        EXPECT_EQ(WEXITSTATUS(status), 1) << command;
-        EXPECT_NE(read_file(error_file).find("error: cannot write to standard output: No space left on device"),
-                  std::string::npos)
-            << command << ": " << read_file(error_file);
-    }
+          "inspect --json " + box, "inspect " + box, "batch --dry-run --no-probe --json -o out " + scenes()})
+        // A descriptor that is closed goes to no other file either.
+        for (const auto& [where, why] :
+             {std::pair{"/dev/full", "No space left on device"}, std::pair{"&-", "Bad file descriptor"}}) {
+            const int status = std::system(fmt::format("cd {} && {} {} >{} 2>{}", work_.string(),
+                                                       program_file().string(), command, where, error_file)
+                                               .c_str());
+            EXPECT_EQ(WEXITSTATUS(status), 1) << command;
+            EXPECT_NE(read_file(error_file).find(fmt::format("error: cannot write to standard output: {}", why)),
+                      std::string::npos)
+                << command << ": " << read_file(error_file);
+        }
 }
 
 TEST_F(CommandLine, NamesFromFilesDoNothingToTheTerminal) {
