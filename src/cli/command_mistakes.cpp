@@ -71,7 +71,7 @@ std::string after(const std::string& message, std::string_view before) {
     return at == std::string::npos ? "" : message.substr(at + before.size());
 }
 
-std::string missing_in_words(std::string_view option, const char* what, const std::string& path) {
+std::string no_such_thing(std::string_view option, const char* what, const std::string& path) {
     const bool is_glob = path.find_first_of("*?[") != std::string::npos;
     return fmt::format("{}: there is no {} '{}'{}", option, what, shown(path),
                        is_glob ? ": the shell found nothing that the pattern matches" : "");
@@ -84,7 +84,7 @@ std::string invalid(const std::string& message) {
         if (path.empty()) continue;
         const std::string name = message.substr(0, message.find(':'));
         if (*before == 'P') return missing_in_words(name, path);
-        return missing_in_words(name, *before == 'F' ? "file" : "directory", path);
+        return no_such_thing(name, *before == 'F' ? "file" : "directory", path);
     }
     return message;
 }
@@ -92,7 +92,7 @@ std::string invalid(const std::string& message) {
 }  // namespace
 
 std::string missing_in_words(std::string_view option, const std::string& path) {
-    return missing_in_words(option, std::filesystem::path(path).has_extension() ? "file" : "directory", path);
+    return no_such_thing(option, std::filesystem::path(path).has_extension() ? "file" : "directory", path);
 }
 
 std::string mistake_in_words(const CLI::App& app, const CLI::ParseError& error) {

@@ -142,8 +142,9 @@ class Planner {
         const std::string& type = scene_.settings.integrator.type;
         const IntegratorEntry* const entry = find_integrator(type);
         if (entry != nullptr && !entry->has_expressions)
-            fail(aov, fmt::format("'{}' does not tell paths apart; these do: {}", type,
-                                  names_of([](const IntegratorEntry& other) { return other.has_expressions; })));
+            fail(aov,
+                 fmt::format("'{}' does not tell paths apart; these do: {}", type,
+                             integrators_that([](const IntegratorEntry& other) { return other.has_expressions; })));
         if (!add_output(aov, {name, "RGB", AovKind::Layer, expressions_.size()}, text)) return;
         try {
             expressions_.push_back(parse_expression(text));

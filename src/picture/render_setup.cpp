@@ -33,7 +33,7 @@ FilterShape to_filter_shape(PixelFilterType type) {
 
 }  // namespace
 
-std::string names_of(const std::function<bool(const IntegratorEntry&)>& is_meant) {
+std::string integrators_that(const std::function<bool(const IntegratorEntry&)>& is_meant) {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry())
         if (is_meant(entry)) names.push_back(fmt::format("'{}'", entry.name));
@@ -109,7 +109,7 @@ bool shows_strategy(const std::string& integrator, const Strategy& strategy) {
 void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for) {
     const std::string& type = settings.integrator.type;
     if (has_strategies(type)) return;
-    const std::string others = names_of([](const IntegratorEntry& entry) { return entry.has_strategies(); });
+    const std::string others = integrators_that([](const IntegratorEntry& entry) { return entry.has_strategies(); });
     throw SceneError(asked_for, fmt::format("'{}' has no strategies; these have some: {}", type, others));
 }
 
@@ -127,7 +127,7 @@ void require_fireflies(const RenderSettings& settings, const IntegratorEntry& en
     if (settings.clamp_indirect > 0.0f && !finds_indirect_light(entry))
         throw SceneError(settings.at("/clamp_indirect"),
                          fmt::format("'{}' finds no indirect light that could be limited; these find some: {}",
-                                     entry.name, names_of(finds_indirect_light)));
+                                     entry.name, integrators_that(finds_indirect_light)));
     if (settings.robust_buckets > 0 && !entry.shows_light)
         throw SceneError(settings.at("/robust"), fmt::format("'{}' shows no light, and has no fireflies", entry.name));
     if (settings.robust_buckets > settings.spp)
@@ -164,7 +164,7 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
         if (!shows_strategy(s.type, *s.strategy))
             throw SceneError(settings.at(std::string(kStrategySetting)),
                              fmt::format("'{}' merges nothing; these do: {}", s.type,
-                                         names_of([](const IntegratorEntry& entry) { return entry.merges; })));
+                                         integrators_that([](const IntegratorEntry& entry) { return entry.merges; })));
     }
     return integrator;
 }
@@ -192,9 +192,9 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
             needed != nullptr && needed->place.read(effective) == default_value(*needed))
             sentences.push_back(fmt::format("{} has no effect without {}", option->second, needed->option));
         if (!is_looked_at(setting, type))
-            sentences.push_back(
-                fmt::format("{} has no effect with '{}': it is for {}", option->second, type,
-                            names_of([&](const IntegratorEntry& entry) { return entry.owns(setting.pointer); })));
+            sentences.push_back(fmt::format(
+                "{} has no effect with '{}': it is for {}", option->second, type,
+                integrators_that([&](const IntegratorEntry& entry) { return entry.owns(setting.pointer); })));
     }
     const IntegratorEntry* const entry = find_integrator(type);
     if (entry != nullptr && entry->merges && settings.relative_error > 0.0 && settings.adaptive)

@@ -31,7 +31,7 @@ namespace etendue {
 [[nodiscard]] RenderState make_render_state(const RenderOptions& options, bool has_halves);
 
 /// Returns "'path' and 'direct'", the integrators for which `is_meant` is true.
-[[nodiscard]] std::string names_of(const std::function<bool(const IntegratorEntry&)>& is_meant);
+[[nodiscard]] std::string integrators_that(const std::function<bool(const IntegratorEntry&)>& is_meant);
 
 /// Names the integrators of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();
