@@ -65,16 +65,6 @@ void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
         log_warning("note: the parts have the pixels {} of {}", text_of(state.film.window()), text_of(all));
 }
 
-/// Returns `settings`, a JSON object by JSON pointers, with `crop` as their window; without one if that is null.
-std::string with_crop(const std::string& settings, const nlohmann::json& crop) {
-    nlohmann::json object = nlohmann::json::parse(settings);
-    if (crop.is_null())
-        object.erase("/crop");
-    else
-        object["/crop"] = crop;
-    return object.dump();
-}
-
 /// Says of an image of parts with several windows what a render of all these pixels would say: the description is that
 /// of the first part, which has its own window only.
 void describe_window(const RenderState& state, ImageDescription& image) {
@@ -84,8 +74,12 @@ void describe_window(const RenderState& state, ImageDescription& image) {
     statistics.settings_hash = is_whole ? statistics.hash_of_whole : "";
     const nlohmann::json crop =
         is_whole ? nlohmann::json() : nlohmann::json{window.x0, window.y0, window.x1, window.y1};
-    statistics.requested_settings = with_crop(statistics.requested_settings, crop);
-    statistics.settings = image.frame.settings = with_crop(statistics.settings, crop);
+    nlohmann::json requested = nlohmann::json::parse(statistics.requested_settings);
+    nlohmann::json resolved = nlohmann::json::parse(statistics.settings);
+    requested["/crop"] = resolved["/crop"] = crop;
+    if (is_whole) requested.erase("/crop");
+    statistics.requested_settings = requested.dump();
+    statistics.settings = image.frame.settings = resolved.dump();
 }
 
 /// Throws UsageError for names of files that can be neither parts nor what is made of them.

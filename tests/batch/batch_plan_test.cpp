@@ -86,11 +86,12 @@ TEST_F(BatchPlanTest, SaysWhatCanBeGoneOnWith) {
     write_file(folder_ / "box.checkpoint", "");
     EXPECT_EQ(reason(), "was interrupted at 12 of 48 spp, goes on from a checkpoint");
     EXPECT_EQ(unit_.done, 0.25);
-    nlohmann::json statistics = nlohmann::json::parse(read_file(folder_ / "box.json"));
-    statistics["requested_settings"] = nlohmann::json::object();
+    json statistics = json::parse(read_file(folder_ / "box.json"));
+    statistics["requested_settings"] =
+        json::parse(requested_settings(prepare_scene(folder_ / "scene", options_.overrides).scene.settings));
     write_file(folder_ / "box.json", statistics.dump());
     options_.overrides.give("--seed", "7");
-    EXPECT_EQ(reason(), "was interrupted at 12 of 48 spp, begins anew as its settings changed: seed: 1 -> 7");
+    EXPECT_EQ(reason(), "was interrupted at 12 of 48 spp, begins anew as its settings changed: seed: 0 -> 7");
     EXPECT_FALSE(unit_.resumes);
     EXPECT_EQ(unit_.done, 0.0);
     fs::remove(folder_ / "box.exr");
