@@ -130,7 +130,8 @@ TEST_P(ContinuationOf, PartsMergeToTheSingleImage) {
         const json sum = json::parse(read_file(work_ / "merged.json"));
         for (const char* key : {"size", "full_size", "samples", "rays", "complete", "spp"})
             EXPECT_EQ(one[key], sum[key]) << key;
-        for (const char* key : {"settings_hash", "settings", "requested_settings"}) EXPECT_EQ(one[key], sum[key]) << key;
+        for (const char* key : {"settings_hash", "settings", "requested_settings"})
+            EXPECT_EQ(one[key], sum[key]) << key;
     }
     // Parts of parts.
     ASSERT_EQ(run({"merge", "0:7.partial", "7:16.partial", "-o", "sum.partial"}).exit_code, 0);

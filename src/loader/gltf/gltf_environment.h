@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// Sets the environment of `scene` to the image-based light of the scene that it shows, if that has one: the sharpest level
-/// of its cube map. The blurred levels and the irradiance coefficients are what a rasteriser needs in place of
+/// Sets the environment of `scene` to the image-based light of the scene that it shows, if that has one: the sharpest
+/// level of its cube map. The blurred levels and the irradiance coefficients are what a rasteriser needs in place of
 /// integrating, and are not used.
 void read_environment(const GltfDocument& document, TextureReader& textures, SceneDesc& scene, ProblemList& problems);
 
