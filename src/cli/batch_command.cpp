@@ -141,7 +141,7 @@ ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, cons
 /// port `live`, unless that is none.
 ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live, std::optional<BatchProgress>& progress,
                     BatchReport& report) {
-    // Not by CLI11: --on-finish is to hear of it.
+    // Checked here and not by CLI11, so that --on-finish runs.
     for (const std::string& root : options.roots)
         if (std::error_code error; !fs::exists(root, error)) throw UsageError(missing_in_words("DIRS", root));
     check_options(options.overrides);

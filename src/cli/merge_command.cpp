@@ -65,8 +65,8 @@ void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
         log_warning("note: the parts have the pixels {} of {}", text_of(state.film.window()), text_of(all));
 }
 
-/// Says of an image of parts with several windows what a render of all these pixels would say: the description is that
-/// of the first part, which has its own window only.
+/// Describes an image that was merged of several windows as one render of all its pixels; so far, the description has
+/// the window of the first part.
 void describe_window(const RenderState& state, ImageDescription& image) {
     RenderStatistics& statistics = image.statistics;
     const PixelRect& window = state.film.window();

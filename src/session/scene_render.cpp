@@ -66,7 +66,8 @@ class SceneRender {
         const std::string hash = settings_hash(scene_, request_.overrides.depth);
         RenderSettings of_whole = scene_.settings;
         of_whole.film.crop.reset();
-        const std::string hash_of_whole = settings_hash(scene_, of_whole, request_.overrides.depth);
+        const std::string hash_of_whole =
+            scene_.settings.film.crop ? settings_hash(scene_, of_whole, request_.overrides.depth) : hash;
         const std::string requested = requested_settings(scene_.settings);
         to_choose_ = replace_auto(scene_.settings);
         options_ = options_of(scene_.settings);

@@ -89,7 +89,7 @@ class ComparedSample {
         std::vector<Met> met;
         std::vector<SubpathVertex> vertices;
         double rays = 0.0;
-        double connectable = 0.0;  ///< its vertices before it was cut short
+        double connectable = 0.0;  ///< vertices that can be connected, before it was cut short
     };
     /// Holds the eye subpath with the strategies of `vcm` and with those of `bdpt`.
     struct EyeSubpaths {
@@ -117,10 +117,10 @@ class ComparedSample {
     EyeSample eye_;
     PathLengths lengths_;
     bool lamp_images_ = true;
-    // With the strategies of `vcm`, of `bdpt`, and of path tracing alone.
+    // Subpaths of the sample with the strategies of `vcm`, of `bdpt`, and of path tracing alone.
     SubpathSample with_all_, without_merges_, of_path_;
     double light_rays_ = 0.0;
-    double light_vertices_ = 0.0;                 ///< that can be connected, before the subpath was cut short
+    double light_vertices_ = 0.0;                 ///< vertices that can be connected, before the subpath was cut short
     std::vector<SubpathVertex> all_;              ///< with the strategies of `vcm`
     std::vector<SubpathVertex> unmerged_;         ///< with those of `bdpt`
     std::vector<SubpathVertex> of_path_tracing_;  ///< with s = 0 and s = 1

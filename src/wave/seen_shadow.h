@@ -6,12 +6,11 @@
 
 namespace etendue {
 
-/// Holds what an eye path that meets a shadow catcher brings back, in place of the surface's light.
+/// Holds what the eye sees of a shadow catcher in place of the surface.
 struct SeenShadow {
-    float environment =
-        0.0f;            ///< share of what a ray that meets nothing sees, [0, 1]; 0 if the camera sees nothing there
-    float alpha = 1.0f;  ///< of the sample
-    std::uint32_t rays = 0;  ///< traced to lights
+    float environment = 0.0f;  ///< share of the environment that shows, [0, 1]; 0 if the camera sees none
+    float alpha = 1.0f;        ///< alpha of the sample, [0, 1]
+    std::uint32_t rays = 0;    ///< shadow rays that were traced
 };
 
 /// Returns what the camera sees where `ray`, of the sample of `key`, has met a shadow catcher at `hit`.

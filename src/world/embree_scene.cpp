@@ -48,6 +48,8 @@ bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
 
 }  // namespace
 
+EmbreeScene::~EmbreeScene() = default;
+
 EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
                          std::span<const TransformMotion> motions, std::span<const HitFilter> filters,
                          const ThreadPool& threads, std::vector<CollectedSlot> collected)

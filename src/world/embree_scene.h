@@ -47,6 +47,7 @@ class EmbreeScene {
     EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
                 std::span<const TransformMotion> motions, std::span<const HitFilter> filters, const ThreadPool& threads,
                 std::vector<CollectedSlot> collected = {});
+    ~EmbreeScene();
 
     /// Called once the World has its final address.
     void set_opacity(OpacityFunction function, const void* world);

@@ -713,6 +713,7 @@ TEST_F(CommandLine, InspectTellsWhatWasLoadedAndRendersNothing) {
 }
 
 TEST_F(CommandLine, EnvironmentsMayComeFromDirectoriesThatAreNamed) {
+    ASSERT_EQ(::unsetenv("ETENDUE_ASSETS"), 0);
     const std::string box = scene("box");
     std::ofstream(fs::path(box) / "render.json") << R"({"size": [4, 4], "environment": {"image": "sky.hdr"}})";
     fs::create_directories(work_ / "skies");
