@@ -189,15 +189,11 @@ void add_merge_command(CLI::App& app, Action& action) {
     command->add_flag("--quiet", arguments->quiet, "No notes; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout");
     command->footer(
-        "Parts are ranges of samples (--samples) of the same pixels, or crops (--crop) that do not overlap, or both; "
-        "all\n"
-        "of the same scene, settings and version, which is checked, as is that no sample is there twice and no pixel "
-        "has\n"
-        "fewer than the others; windows must tile a rectangle. If samples are missing, or pixels around several "
-        "windows, "
-        "the image is marked incomplete. The image is that of "
-        "a single render but for the order in which sums were added "
-        "(1e-6).\n"
+        "Parts are ranges of samples (--samples) of the same pixels, or crops (--crop) that do not overlap,\n"
+        "or both; all of the same scene, settings and version, which is checked, as is that no sample is\n"
+        "there twice and no pixel has fewer than the others; windows must tile a rectangle. If samples are\n"
+        "missing, or pixels around several windows, the image is marked incomplete. The image is that of a\n"
+        "single render but for the order in which sums were added (1e-6).\n"
         "The memory it takes is that of two parts and the image: 48 bytes a pixel, 72 with light subpaths,\n"
         "and more with layers (docs/aovs.md).\n\n"
         "Examples:\n"

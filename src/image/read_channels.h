@@ -5,6 +5,7 @@
 #include "image/write.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {

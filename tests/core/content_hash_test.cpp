@@ -4,6 +4,7 @@
 #include "core/write_file.h"
 #include "support/temporary_folder.h"
 
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>

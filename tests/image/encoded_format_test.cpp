@@ -1,5 +1,6 @@
 #include "image/encoded_format.h"
 
+#include <string>
 #include <string_view>
 
 #include <gtest/gtest.h>

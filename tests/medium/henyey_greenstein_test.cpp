@@ -4,6 +4,7 @@
 #include "support/random.h"
 
 #include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <vector>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>

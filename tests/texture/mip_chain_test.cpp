@@ -4,6 +4,7 @@
 #include "texture/test_images.h"
 
 #include <array>
+#include <limits>
 #include <type_traits>
 
 #include <gtest/gtest.h>
