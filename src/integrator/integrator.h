@@ -78,7 +78,7 @@ struct IntegratorEntry {
     std::span<const std::string_view> own_settings{};
     bool merges = false;          ///< its samples may share photons, so that all pixels have as many
     bool has_expressions = true;  ///< it tells the light of paths apart
-    bool catches_shadows = true;  ///< the camera sees the shadows of shadow catchers, and not their surface
+    bool has_alpha = true;        ///< the camera sees shadow catchers and holdouts as such
     bool shows_light = true;      ///< false: something else, for finding out what is wrong
 
     /// Returns true if `own_settings` has this JSON pointer.

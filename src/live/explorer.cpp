@@ -86,7 +86,7 @@ Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given
     // Images here are whole, and have no end.
     for (const char* const name : {"--crop", "--overscan", "--error"}) given_ = without(std::move(given_), name);
     SceneDesc scene = std::move(prepared.scene);
-    catcher_ = shadow_catcher(scene);
+    replaced_ = replaced_material(scene);
     const std::string working_space = resolve_colors(scene.settings, colors_);
     const Bounds bounds = compute_bounds(scene);
     scene_.name = scene.name;
@@ -134,7 +134,7 @@ RenderSettings Explorer::settings_of(const ExplorerChoice& choice) const {
     overrides.apply(settings);
     if (settings.integrator.type == kAutoIntegrator) throw UsageError("'auto' is no integrator: choose one");
     (void)create_integrator(settings);
-    if (const auto reason = catcher_ ? misses_shadows(settings.integrator.type, *catcher_) : std::nullopt)
+    if (const auto reason = replaced_ ? misses_alpha(settings.integrator.type, *replaced_) : std::nullopt)
         throw UsageError(*reason);
     settings.film.crop.reset();
     settings.film.overscan = 0.0f;

@@ -128,9 +128,9 @@ class Explorer {
     ColorConfig colors_ = ColorConfig::from_environment();
     std::vector<GivenOption> given_;
     TakeImage take_;
-    SceneDesc scene_;                     ///< cameras, settings and names; the rest is in the world
-    std::optional<std::string> catcher_;  ///< the name of a material that catches shadows, if there is one
-    double distance_ = 1.0;               ///< from the scene's own camera to what it turns around, metres
+    SceneDesc scene_;                      ///< cameras, settings and names; the rest is in the world
+    std::optional<std::string> replaced_;  ///< the name of a material that is a shadow catcher or a holdout, if any is
+    double distance_ = 1.0;                ///< from the scene's own camera to what it turns around, metres
     std::optional<World> world_;
     std::array<Side, 2> sides_{Side(colors_), Side(colors_)};
 

@@ -10,28 +10,29 @@ namespace etendue {
 
 namespace {
 
-/// Throws SceneError if an integrator is asked for that does not see the shadow of a catcher in the scene.
-void require_shadows_caught(const SceneDesc& scene) {
-    const std::optional<std::string> catcher = shadow_catcher(scene);
-    if (!catcher) return;
-    if (const std::optional<std::string> reason = misses_shadows(scene.settings.integrator.type, *catcher))
+/// Throws SceneError if an integrator is asked for that has no alpha for the shadows or holes in the scene.
+void require_alpha(const SceneDesc& scene) {
+    const std::optional<std::string> material = replaced_material(scene);
+    if (!material) return;
+    if (const std::optional<std::string> reason = misses_alpha(scene.settings.integrator.type, *material))
         throw SceneError(scene.settings.at("/integrator/type"), *reason);
 }
 
 }  // namespace
 
-std::optional<std::string> shadow_catcher(const SceneDesc& scene) {
-    const auto catcher = std::ranges::find(scene.materials, true, &MaterialDesc::catches_shadows);
-    return catcher == scene.materials.end() ? std::nullopt : std::optional(catcher->name);
+std::optional<std::string> replaced_material(const SceneDesc& scene) {
+    const auto found = std::ranges::find_if(
+        scene.materials, [](const MaterialDesc& material) { return material.seen_as != SeenAs::Surface; });
+    return found == scene.materials.end() ? std::nullopt : std::optional(found->name);
 }
 
-std::optional<std::string> misses_shadows(const std::string& integrator, const std::string& catcher) {
+std::optional<std::string> misses_alpha(const std::string& integrator, const std::string& material) {
     const IntegratorEntry* const entry = find_integrator(integrator);
-    if (entry == nullptr || entry->catches_shadows) return std::nullopt;
+    if (entry == nullptr || entry->has_alpha) return std::nullopt;
     return fmt::format(
-        "'{}' does not see what the material '{}' is to catch: paths from the lights have no alpha; all other "
-        "integrators do",
-        integrator, catcher);
+        "'{}' cannot show the material '{}' as a shadow catcher or a holdout: paths from the lights have no alpha; all "
+        "other integrators can",
+        integrator, material);
 }
 
 void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems) {
@@ -39,7 +40,7 @@ void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& prob
     const ProblemList remaining = validate(scene);
     if (remaining.has_errors()) throw SceneError(remaining);
     apply_variant(scene);
-    require_shadows_caught(scene);
+    require_alpha(scene);
 }
 
 }  // namespace etendue

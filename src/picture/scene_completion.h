@@ -12,13 +12,13 @@ namespace etendue {
 
 /// Adds a camera and a light where `scene`, whose animation fills `swept`, has none, and applies the variant of its
 /// materials; `problems` notes what was added. Throws SceneError for what `validate` finds, and for integrators that do
-/// not see shadow catchers.
+/// not see shadow catchers and holdouts.
 void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems);
 
-/// Returns the name of a material that catches shadows, or nothing if none does.
-[[nodiscard]] std::optional<std::string> shadow_catcher(const SceneDesc& scene);
+/// Returns the name of a material in whose place the camera sees a shadow or a hole, or nothing if there is none.
+[[nodiscard]] std::optional<std::string> replaced_material(const SceneDesc& scene);
 
-/// Returns why `integrator` cannot show the shadows that the material `catcher` catches, or nothing if it can.
-[[nodiscard]] std::optional<std::string> misses_shadows(const std::string& integrator, const std::string& catcher);
+/// Returns why `integrator` cannot show a shadow or a hole in the place of `material`, or nothing if it can.
+[[nodiscard]] std::optional<std::string> misses_alpha(const std::string& integrator, const std::string& material);
 
 }  // namespace etendue

@@ -187,7 +187,8 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
     if (m.beam.kind == BeamDesc::Kind::Panel) fmt::format_to(out, "  beam of spread {:g}\n", m.beam.spread);
     if (m.beam.kind == BeamDesc::Kind::Spot)
         fmt::format_to(out, "  beam of cone {:g} to {:g}\n", m.beam.inner_cone_angle, m.beam.outer_cone_angle);
-    if (m.catches_shadows) fmt::format_to(out, "  catches shadows\n");
+    if (m.seen_as == SeenAs::Shadow) fmt::format_to(out, "  catches shadows\n");
+    if (m.seen_as == SeenAs::Hole) fmt::format_to(out, "  cuts a hole\n");
     if (!m.visible_to_camera) fmt::format_to(out, "  hidden from the camera\n");
     fmt::format_to(out, "  specular {:g}, {} color {:g} {:g} {:g}, {}\n", m.specular, text(m.specular_texture),
                    m.specular_color.r, m.specular_color.g, m.specular_color.b, text(m.specular_color_texture));

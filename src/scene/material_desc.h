@@ -7,6 +7,7 @@
 #include "scene/texture_desc.h"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -16,6 +17,13 @@
 namespace etendue {
 
 enum class AlphaMode { Opaque, Mask, Blend };
+
+/// Names what the camera sees, straight or through clear surfaces, in the place of a surface.
+enum class SeenAs : std::uint8_t {
+    Surface,
+    Shadow,  ///< how much light is taken from it, as alpha: the surface is a shadow catcher
+    Hole,    ///< nothing, with alpha 0: the surface is a holdout
+};
 
 /// The metals whose measured complex index of refraction is known.
 inline constexpr std::array<std::string_view, 8> kMetalNames{"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ti", "W"};
@@ -141,7 +149,7 @@ struct MaterialDesc {
     TextureRef emissive_texture;  ///< sRGB
     BeamDesc beam;                ///< beam that one-sided materials shine in
     bool visible_to_camera = true;
-    bool catches_shadows = false;  ///< the camera sees of it how much light is taken from it, as alpha, and no more
+    SeenAs seen_as = SeenAs::Surface;
 
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;

@@ -28,7 +28,7 @@ struct DeltaBranch {
 
 /// Follows `branch` and all that grows from it, through at most `max_depth` edges. Calls `visitor.visit(branch, state,
 /// vertex)` wherever a branch leads; a branch that leaves by `delta` has the state that `visitor.after(state, vertex,
-/// delta)` returns. The eye sees no more of a shadow catcher than its shadow: branches end there.
+/// delta)` returns. Branches end at surfaces in whose place the camera sees something else.
 template <typename State, typename Visitor>
 void follow_deltas(const World& world, DeltaBranch branch, const State& state, int max_depth, Visitor& visitor) {
     const auto follow_survivor = [&](const DeltaBranch& next, const State& its_state) {
@@ -38,7 +38,7 @@ void follow_deltas(const World& world, DeltaBranch branch, const State& state, i
     const Vertex vertex = next_vertex(world, branch);
     visitor.visit(branch, state, vertex);
     if (vertex.kind == Vertex::Kind::Boundary) follow_survivor(go_straight_on(branch, vertex), state);
-    if (vertex.kind != Vertex::Kind::Surface || shows_shadow(branch.path, vertex)) return;
+    if (vertex.kind != Vertex::Kind::Surface || is_replaced(branch.path, vertex)) return;
     std::uint32_t child = 0;
     for (const BsdfSample& delta : vertex.scattering().deltas()) {
         // What goes straight through a clear surface has no vertex there.

@@ -61,8 +61,8 @@ void pass_through(Subpath& subpath, const Vertex& vertex) {
 /// Goes on from a surface that the subpath has reached; false if it ends there.
 bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex, SubpathDensities densities,
                         int bounce, std::vector<SubpathVertex>& vertices) {
-    // The eye sees no more of a shadow catcher than the shadow.
-    if (subpath.end == SubpathEnd::AtEye && subpath.index == kDirectlySeen && vertex.surface.material->catches_shadows)
+    // The camera sees something else in the place of the surface.
+    if (subpath.end == SubpathEnd::AtEye && subpath.index == kDirectlySeen && vertex.surface.material->seen_as != SeenAs::Surface)
         return false;
     const bool is_clear = vertex.surface.material->is_clear;
     bool ends_here = subpath.edges >= sample.lengths.max_depth;

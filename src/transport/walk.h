@@ -79,9 +79,9 @@ struct VertexNumbers {
 [[nodiscard]] Hit nearest_hit(const World& world, const Ray& ray, RayEnds ends = RayEnds::InScene);
 /// Returns the nearest surface along the path's ray, if the camera shows it where the eye sees along the ray.
 [[nodiscard]] Hit nearest_hit(const World& world, const EyePath& path);
-/// Returns whether the eye sees of `vertex`, where the path has arrived, the shadow alone: it lies on a shadow catcher.
-[[nodiscard]] inline bool shows_shadow(const EyePath& path, const Vertex& vertex) {
-    return path.is_seen() && vertex.kind == Vertex::Kind::Surface && vertex.surface.material->catches_shadows;
+/// Returns whether the camera sees a shadow or a hole in the place of `vertex`, where the path has arrived.
+[[nodiscard]] inline bool is_replaced(const EyePath& path, const Vertex& vertex) {
+    return path.is_seen() && vertex.kind == Vertex::Kind::Surface && vertex.surface.material->seen_as != SeenAs::Surface;
 }
 /// Returns the share of light, [0, 1], that passes what lies within the length of `ray`; `tracer` may be null.
 [[nodiscard]] Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer = nullptr,

@@ -50,7 +50,7 @@ struct WhittedLight {
 
     void visit(const DeltaBranch& branch, NoState, const Vertex& vertex) {
         const EyePath& path = branch.path;
-        if (shows_shadow(path, vertex)) return see_shadow(branch, vertex);
+        if (is_replaced(path, vertex)) return see_in_place(branch, vertex);
         const bool escapes = vertex.kind == Vertex::Kind::Environment;
         if (escapes && path.is_seen() && world.environment().met(true).empty()) found.alpha = 0.0f;
         if (lengths.is_long_enough(path.edges))
@@ -58,9 +58,14 @@ struct WhittedLight {
         if (vertex.kind == Vertex::Kind::Surface && lengths.keeps(path.edges + 1) && vertex.has_non_delta())
             found.scattered += branch_direct_light(world, branch, vertex);
     }
-    /// Adds what the eye sees of a shadow catcher: the environment behind its shadow, or the shadow as alpha.
-    void see_shadow(const DeltaBranch& branch, const Vertex& vertex) {
+    /// Adds what the camera sees in the place of a surface: of a shadow catcher the environment behind its shadow, or
+    /// the shadow as alpha; of a holdout nothing.
+    void see_in_place(const DeltaBranch& branch, const Vertex& vertex) {
         const EyePath& path = branch.path;
+        if (vertex.surface.material->seen_as == SeenAs::Hole) {
+            found.alpha = 0.0f;
+            return;
+        }
         const CaughtShadow caught =
             caught_shadow(world, vertex.surface, -path.ray.direction, path.ray.time, branch.numbers, path.tracer);
         if (world.environment().met(true).empty())

@@ -173,7 +173,7 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     material.emits_both_sides = desc.double_sided;
     material.beam = compile_beam(desc.beam);
     material.visible_to_camera = desc.visible_to_camera;
-    material.catches_shadows = desc.catches_shadows;
+    material.seen_as = desc.seen_as;
     if (material.emits) {
         material.emission_texture = textures.slot(desc.emissive_texture, TextureUse::Color);
         material.emission = material.emission_texture.valid() ? emission : clamp_negative(from_rec709(emission));

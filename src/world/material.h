@@ -101,13 +101,13 @@ struct Material {
     bool emits_both_sides = false;
     Beam beam;  ///< beam of the emission
 
-    bool visible_to_camera =
-        true;                      ///< false: what the camera sees straight or through clear surfaces goes on behind it
-    bool catches_shadows = false;  ///< the camera sees straight what share of its light is taken from it
-    bool culls_back = false;       ///< the eye does not see it from behind, straight or by any way
+    /// Is false if what the camera sees straight or through clear surfaces goes on behind it.
+    bool visible_to_camera = true;
+    SeenAs seen_as = SeenAs::Surface;
+    bool culls_back = false;  ///< the eye does not see it from behind, straight or by any way
 
     /// Returns whether light that leaves the surface straight for the camera arrives there.
-    [[nodiscard]] bool lights_camera() const { return visible_to_camera && !catches_shadows; }
+    [[nodiscard]] bool lights_camera() const { return visible_to_camera && seen_as == SeenAs::Surface; }
 
     AlphaTest alpha_test = AlphaTest::Opaque;
     float alpha_cutoff = 0.5f;

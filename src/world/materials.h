@@ -56,8 +56,8 @@ class Materials {
     [[nodiscard]] bool is_hidden_from_camera(const Hit& hit) const {
         return hit.valid() && !at(hit)->visible_to_camera;
     }
-    /// Returns whether the surface at `hit` is there and shows the camera shadows in its place.
-    [[nodiscard]] bool catches_shadows(const Hit& hit) const { return hit.valid() && at(hit)->catches_shadows; }
+    /// Returns whether there is a surface at `hit`, in whose place the camera sees a shadow or a hole.
+    [[nodiscard]] bool is_replaced(const Hit& hit) const { return hit.valid() && at(hit)->seen_as != SeenAs::Surface; }
     /// Returns the index of the material of `point`, as in the description.
     [[nodiscard]] std::uint32_t index(const SurfacePoint& point) const {
         return static_cast<std::uint32_t>(point.material - data_.materials.data());

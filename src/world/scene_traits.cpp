@@ -38,7 +38,10 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.has_unlit_surfaces = has_surface([](const Material& material) { return material.unlit; });
     traits.has_emitting_surfaces = has_surface([](const Material& material) { return material.emits; });
     traits.hides_surfaces = has_surface([](const Material& material) { return !material.visible_to_camera; });
-    traits.has_shadow_catchers = has_surface([](const Material& material) { return material.catches_shadows; });
+    traits.replaces_surfaces =
+        has_surface([](const Material& material) { return material.seen_as != SeenAs::Surface; });
+    traits.has_shadow_catchers =
+        has_surface([](const Material& material) { return material.seen_as == SeenAs::Shadow; });
     traits.has_unsampled_emitters = data.has_unsampled_emitters;
 
     traits.has_bodies = !data.filling_of_body.empty();

@@ -23,7 +23,8 @@ struct SceneTraits {
     bool has_unlit_surfaces = false;     ///< some surface shows its colour and neither scatters nor emits light
     bool has_emitting_surfaces = false;  ///< some surface emits light
     bool hides_surfaces = false;         ///< some surface is hidden from the camera
-    bool has_shadow_catchers = false;    ///< the camera sees shadows in place of some surface
+    bool replaces_surfaces = false;      ///< the camera sees a shadow or a hole in place of some surface
+    bool has_shadow_catchers = false;    ///< the camera sees a shadow in place of some surface
     bool culls_backs = false;            ///< the eye does not see some surface from behind
     /// Is set if some of these move, are uneven shapes or are beyond the most triangles that are sampled.
     bool has_unsampled_emitters = false;

@@ -384,11 +384,11 @@ class Overlooked(unittest.TestCase):
         return overlooked.notes(items, fake.view_layer(**flags))
 
     def test_each_is_said_once_with_the_names(self):
-        flags = {"visible_shadow": False, "holdout_get": lambda view_layer: True,
+        flags = {"visible_shadow": False,
                  "light_linking": fake.SimpleNamespace(receiver_collection="C", blocker_collection=None)}
         items = [fake.item(name, None, "MESH", **flags) for name in "fbcade"]
         found = self.notes(*items)
-        self.assertEqual(len(found), 3)
+        self.assertEqual(len(found), 2)
         for text in found:
             self.assertTrue(text.endswith(": 'a', 'b', 'c', 'd' and 2 more"), text)
         self.assertEqual(self.notes(lightgroups=[fake.SimpleNamespace(name="Key")]), ["light groups are not brought over: 'Key'"])
@@ -403,10 +403,24 @@ class Overlooked(unittest.TestCase):
                            fake.item("Lamp", lamp, "LIGHT"))
         self.assertEqual([text.split(": ")[1] for text in found], ["'Drop'", "'Smoke'", "'Head'", "'Lamp'"])
 
-    def test_shadow_catchers_are_for_paths(self):
-        items, said = [fake.item("Floor", None, "MESH", is_shadow_catcher=True), fake.item("Cube", None, "MESH")], []
-        self.assertEqual(list(overlooked.shadow_catchers(items, "path", said.append)), items[:1])
-        self.assertEqual((list(overlooked.shadow_catchers(items, "vcm", said.append)), len(said)), ([], 1))
+    def test_objects_and_collections_are_holdouts_and_catchers(self):
+        def are(kind="MESH", **properties):
+            item = fake.item("A", None, kind, **properties)
+            return overlooked.is_holdout(item, None), overlooked.is_shadow_catcher(item)
+
+        self.assertEqual(are(), (False, False))
+        self.assertEqual(are(is_holdout=True), (True, False))
+        self.assertEqual(are(holdout_get=lambda view_layer: True), (True, False))
+        self.assertEqual(are(is_shadow_catcher=True), (False, True))
+        self.assertEqual(are("LIGHT", is_holdout=True, is_shadow_catcher=True), (False, False))
+
+    def test_light_has_no_alpha_for_holdouts_and_catchers(self):
+        items = [fake.item("Floor", None, "MESH", is_shadow_catcher=True), fake.item("Cube", None, "MESH", is_holdout=True),
+                 fake.item("Ball", None, "MESH")]
+        for integrator, expected, count in (("path", items[:2], 0), ("vcm", items[:2], 0), ("light", [], 1)):
+            said = []
+            self.assertEqual(overlooked.replaced(items, None, integrator, said.append), expected)
+            self.assertEqual(len(said), count)
 
     def test_objects_and_collections_hide_from_the_camera(self):
         def hidden(kind="MESH", **properties):

@@ -185,7 +185,7 @@ class Renders(InBlender):
         node = ("t = bpy.data.materials['Blue'].node_tree; d = next(n for n in t.nodes if n.type == 'BSDF_DIFFUSE'); ",
                 "i = t.nodes.new('ShaderNodeTexImage'); i.image = bpy.data.images.new('paint', 8, 8); "
                 "i.image.pixels.foreach_set([0.0, 1.0, 0.0, 1.0] * 64); t.links.new(i.outputs[0], d.inputs[0]); "
-                "bpy.data.objects['Floor'].is_shadow_catcher = True; l = bpy.context.view_layer; "
+                "bpy.data.objects['Floor'].is_shadow_catcher = True; bpy.data.objects['Ball'].is_holdout = True; l = bpy.context.view_layer; "
                 "c = bpy.data.collections.new('Away'); scene.collection.children.link(c); b = bpy.data.objects['Cube']; "
                 "scene.collection.objects.unlink(b); c.objects.link(b); l.layer_collection.children['Away'].indirect_only = True; "
                 "m = bpy.data.materials.new('Fog'); m.use_nodes = True; n = m.node_tree.nodes; n.remove(n['Principled BSDF']); "
@@ -205,6 +205,7 @@ class Renders(InBlender):
             self.assertEqual(names["Blue"]["pbrMetallicRoughness"]["baseColorTexture"], {"index": 0})
             self.assertEqual((entries["Blue"]["metallic"], entries["Fog"]["ior"], entries["Fog"]["solid"]), (0.0, 1.0, True))
             self.assertTrue(entries["Grey that catches shadows"]["shadow_catcher"])
+            self.assertTrue(entries["Blue that is a holdout"]["holdout"])
             self.assertIs(entries["Red hidden from the camera"]["visible_to_camera"], False)
             self.assertEqual(found["notes"], [])
 

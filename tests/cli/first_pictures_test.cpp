@@ -169,7 +169,7 @@ TEST_F(FirstPictures, ShadowCatchersAreForEyePaths) {
     EXPECT_NE(json::parse(read_file(work_ / "a.json")).at("integrator"), "auto") << "the pilot has chosen";
     const ProgramResult refused = run({"render", "a", "--integrator", "light", "-o", "b.exr"});
     EXPECT_EQ(refused.exit_code, 3);
-    EXPECT_TRUE(contains(refused.err, "'light' does not see what the material 'Floor' is to catch")) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "'light' cannot show the material 'Floor' as a shadow catcher")) << refused.err;
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ Pixels render_alone(const SceneDesc& scene, const std::string& name, std::uint32
 
 MaterialDesc catcher() {
     MaterialDesc material = diffuse(Rgb(kGroundAlbedo));
-    material.catches_shadows = true;
+    material.seen_as = SeenAs::Shadow;
     return material;
 }
 
@@ -226,6 +226,41 @@ TEST(ShadowCatcher, DarkensTheEnvironmentThatTheCameraSees) {
     }
 }
 
+// A red lamp above the camera, which lights the ball, cuts a hole into the image of a ground below a visible sky.
+TEST(Holdout, CutsAHoleAndIsASurfaceToOtherRays) {
+    const auto scene_with = [](SeenAs seen_as) {
+        SceneDesc scene = ball_over_ground(diffuse(Rgb(kGroundAlbedo)));
+        scene.environment.visible_to_camera = true;
+        scene.lights.clear();
+        MaterialDesc lamp = emissive(Rgb(30.0f, 0.0f, 0.0f));
+        lamp.seen_as = seen_as;
+        add_object(scene, sphere({0.9f, 0.4f, 0.9f}, 0.3f, 12), add_material(scene, lamp));
+        return scene;
+    };
+    for (const char* const integrator : {"path", "direct", "naive", "bdpt", "vcm", "whitted"}) {
+        const Pixels whole = render_alone(scene_with(SeenAs::Surface), integrator, 64);
+        const Pixels holed = render_alone(scene_with(SeenAs::Hole), integrator, 64);
+        std::size_t holes = 0;
+        double before = 0.0;
+        double after = 0.0;
+        for (std::size_t i = 0; i < whole.colors.size(); ++i) {
+            EXPECT_EQ(whole.alphas[i], 1.0);
+            if (holed.alphas[i] == 0.0) {
+                ++holes;
+                EXPECT_TRUE(is_black(holed.colors[i])) << integrator;
+                EXPECT_GT(whole.colors[i].r, 20.0f) << integrator << ": the lamp";
+            }
+            if (holed.alphas[i] == 1.0) {
+                before += double(whole.colors[i].r);
+                after += double(holed.colors[i].r);
+            }
+        }
+        EXPECT_GT(holes, 10u) << integrator;
+        EXPECT_NEAR(after / before, 1.0, 0.02) << integrator << ": the light of the lamp";
+        EXPECT_GT(before, 100.0) << integrator;
+    }
+}
+
 MaterialDesc clear_pane() {
     MaterialDesc material;
     material.metallic = 0.0f;
@@ -240,6 +275,17 @@ SceneDesc ball_behind_pane(const MaterialDesc& ground) {
     add_object(scene, quad({0.0f, 1.6f, 1.6f}, {4.0f, 0.0f, 0.0f}, {0.0f, 3.0f, 0.0f}),
                add_material(scene, clear_pane()));
     return scene;
+}
+
+// The camera looks at the ball through a pane; a hole takes the place of all but the ball.
+TEST(Holdout, IsSeenThroughPanes) {
+    MaterialDesc ground = diffuse(Rgb(kGroundAlbedo));
+    ground.seen_as = SeenAs::Hole;
+    for (const char* const integrator : {"path", "bdpt", "vcm", "whitted"}) {
+        const Pixels pixels = render_alone(ball_behind_pane(ground), integrator, 32);
+        EXPECT_LT(*std::ranges::min_element(pixels.alphas), 0.3) << integrator << ": what the pane reflects";
+        EXPECT_EQ(*std::ranges::max_element(pixels.alphas), 1.0) << integrator << ": the ball";
+    }
 }
 
 TEST(ShadowCatcher, ShowsNothingOfItselfThroughPanes) {

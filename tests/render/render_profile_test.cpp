@@ -129,7 +129,7 @@ TEST(RenderProfile, EveryShadowRayOfACatcherIsOfALightSample) {
     SceneDesc scene = empty_scene();
     scene.settings.film.width = scene.settings.film.height = 24;
     MaterialDesc catcher = diffuse(Rgb(0.5f));
-    catcher.catches_shadows = true;
+    catcher.seen_as = SeenAs::Shadow;
     add_object(scene, sphere({0, 0, -3}, 1.0f, 16), add_material(scene, catcher));
     add_object(scene, sphere({0, 3, 0}, 0.4f, 8), add_material(scene, emissive(Rgb(2.0f))));
     const World world = compile(std::move(scene));

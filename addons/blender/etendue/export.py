@@ -130,12 +130,15 @@ def change_materials(document: dict[str, Any], written: Written, names: Collecti
 
 def own_materials(document: dict[str, Any], written: Written, rendered: Rendered, view_layer: Any, integrator: str,
                   names: dict[Any, str]) -> dict[str, str]:
-    """Gives materials of their own to what catches shadows and to what the camera is not to see. Returns which material
-    each is a copy of."""
+    """Gives materials of their own to holdouts, to what catches shadows and to what the camera is not to see. Returns which
+    material each is a copy of."""
     items = rendered.items.values()
-    catchers = {names[item.original] for item in overlooked.shadow_catchers(items, integrator, written.note)}
+    replaced = overlooked.replaced(items, view_layer, integrator, written.note)
+    holdouts = {names[item.original] for item in replaced if overlooked.is_holdout(item, view_layer)}
+    catchers = {names[item.original] for item in replaced} - holdouts
     hidden = {names[item.original] for item in items if overlooked.is_hidden(item, view_layer)}
-    return (change_materials(document, written, catchers, "that catches shadows", {"shadow_catcher": True})
+    return (change_materials(document, written, holdouts, "that is a holdout", {"holdout": True})
+            | change_materials(document, written, catchers, "that catches shadows", {"shadow_catcher": True})
             | change_materials(document, written, hidden, "hidden from the camera", {"visible_to_camera": False}))
 
 

@@ -80,7 +80,7 @@ class Reader:
         known = {"BSDF_PRINCIPLED": self.principled, "EMISSION": self.emission, "MIX_SHADER": self.mix,
                  "ADD_SHADER": self.add, "BSDF_TRANSPARENT": self.transparent, "BSDF_DIFFUSE": self.diffuse,
                  "BSDF_TRANSLUCENT": self.translucent, "BSDF_GLASS": self.glass, "BSDF_REFRACTION": self.glass,
-                 "SUBSURFACE_SCATTERING": self.wax, **{kind: self.glossy for kind in GLOSSY}}
+                 "SUBSURFACE_SCATTERING": self.wax, "HOLDOUT": self.holdout, **{kind: self.glossy for kind in GLOSSY}}
         if shader.type in known:
             return known[shader.type](shader)
         self.note(f"its node '{shader.name}' is not brought over, and shown as a matte surface")
@@ -215,6 +215,9 @@ class Reader:
             self.note(f"the tint of '{shader.name}' is not brought over")
         self.cover(1.0 - sum(color) / 3.0)
         return matte(BLACK)
+
+    def holdout(self, _: Seen) -> Document:
+        return matte(BLACK) | {"holdout": True}
 
     def emission(self, shader: Seen) -> Document:
         return matte(BLACK) | self.shine(shader)

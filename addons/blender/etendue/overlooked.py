@@ -3,7 +3,7 @@ needs nothing of Blender itself."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from .identity import Tree, uses_nodes
@@ -28,8 +28,6 @@ def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
                and not all(getattr(item, name, True) for name in RAYS),
                "of Ray Visibility, only Camera is brought over"),
               (casts_no_shadow, "lamps cast shadows even where they should not"),
-              (lambda item: getattr(item, "is_holdout", False) or asks(item, "holdout_get", view_layer),
-               "holdouts are not brought over"),
               (lambda item: any(getattr(getattr(item, "light_linking", None), name, None) is not None
                                 for name in ("receiver_collection", "blocker_collection")),
                "light linking is not brought over")]
@@ -109,11 +107,20 @@ def is_hidden(item: Any, view_layer: Any) -> bool:
     return item.type in SURFACES and (not getattr(item, "visible_camera", True) or asks(item, "indirect_only_get", view_layer))
 
 
-def shadow_catchers(items: Iterable[Any], integrator: str, say: Callable[[str], None]) -> Iterator[Any]:
-    """Yields the shadow catchers, where the integrator sees them."""
-    catchers = [item for item in items if item.type in SURFACES and getattr(item, "is_shadow_catcher", False)]
-    if integrator in ("path", "direct", "naive", "auto"):
-        yield from catchers
-        return
-    for text in said(f"shadow catchers are ordinary surfaces to the integrator '{integrator}'", catchers):
+def is_holdout(item: Any, view_layer: Any) -> bool:
+    """Returns whether the object itself or its collections cut a hole into the image."""
+    return item.type in SURFACES and (getattr(item, "is_holdout", False) or asks(item, "holdout_get", view_layer))
+
+
+def is_shadow_catcher(item: Any) -> bool:
+    return item.type in SURFACES and getattr(item, "is_shadow_catcher", False)
+
+
+def replaced(items: Iterable[Any], view_layer: Any, integrator: str, say: Callable[[str], None]) -> list[Any]:
+    """Returns the holdouts and the shadow catchers, none where the integrator has no alpha."""
+    found = [item for item in items if is_holdout(item, view_layer) or is_shadow_catcher(item)]
+    if integrator != "light":
+        return found
+    for text in said("holdouts and shadow catchers are ordinary surfaces to the integrator 'light'", found):
         say(text)
+    return []

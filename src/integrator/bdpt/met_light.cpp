@@ -2,7 +2,7 @@
 
 #include "wave/aov/first_hits.h"
 #include "wave/profile/wave_profile.h"
-#include "wave/seen_shadow.h"
+#include "wave/seen_in_place.h"
 
 namespace etendue {
 
@@ -21,9 +21,9 @@ void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hit
     parts_.lamps.note(parts_.job.samples, rays, hits, parts_.counters);
 }
 
-void MetLight::on_shadow_catcher(SubpathState& state, const Ray& ray, const Hit& hit) {
+void MetLight::on_replaced_surface(SubpathState& state, const Ray& ray, const Hit& hit) {
     const BdptJob& job = parts_.job;
-    const SeenShadow seen = seen_shadow(job.world(), job.job, ray, hit, job.samples[state.slot].key, parts_.counters);
+    const SeenInPlace seen = seen_in_place(job.world(), job.job, ray, hit, job.samples[state.slot].key, parts_.counters);
     for (std::uint32_t i = 0; i < seen.rays; ++i) parts_.found.count_ray(state.slot);
     if (job.job.profile != nullptr) job.job.profile->use().light_samples += seen.rays;
     parts_.alpha[state.slot] = seen.alpha;
@@ -66,7 +66,7 @@ void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
     const World& world = parts_.job.world();
     const bool is_direct = state.index == kDirectlySeen;
     const std::span<const std::uint32_t> met = world.environment().met(is_direct);
-    // A subpath without light has met a shadow catcher, which has given the sample its alpha.
+    // A subpath without light has met a surface that the camera does not see, which has given the sample its alpha.
     if (is_direct && met.empty() && !is_black(state.throughput)) parts_.alpha[state.slot] = 0.0f;
     if (!parts_.job.lengths.is_long_enough(state.edges)) return;
     for (const std::uint32_t light : met) {

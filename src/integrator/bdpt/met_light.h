@@ -30,7 +30,7 @@ class MetLight final : public LightFinder {
                     const SubpathDensities& arrived) override;
     void on_unlit(const SubpathState& state, const SurfacePoint& point) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
-    void on_shadow_catcher(SubpathState& state, const Ray& ray, const Hit& hit) override;
+    void on_replaced_surface(SubpathState& state, const Ray& ray, const Hit& hit) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
     [[nodiscard]] bool finds_emission(const Hit& first_hit) const override {
         return parts_.lamps.finds_emission(first_hit);

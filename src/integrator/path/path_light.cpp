@@ -182,7 +182,7 @@ void PathLight::add_environment(const PathContext& context) {
     std::array<Vec3f, kBlockLanes> directions;
     for (const std::size_t k : block_.escaped) {
         if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
-            // A path without light has met a shadow catcher, which has given it its alpha.
+            // A path without light has met a surface that the camera does not see, which has given it its alpha.
             if (!is_black(paths_.throughput[block_.first + k])) alpha_[paths_.slot[block_.first + k]] = 0.0f;
             continue;
         }

@@ -4,7 +4,7 @@
 #include "transport/roulette.h"
 #include "wave/aov/first_hits.h"
 #include "wave/ray_batch.h"
-#include "wave/seen_shadow.h"
+#include "wave/seen_in_place.h"
 
 #include <algorithm>
 #include <span>
@@ -41,7 +41,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
             find_first_hits(world, job, samples, camera_rays, hits, tile);
             light_.lamps().note(samples, camera_rays, hits, counters);
         }
-        if (world.traits().has_shadow_catchers) catch_shadows(world, job, counters);
+        if (world.traits().replaces_surfaces) replace_surfaces(world, job, counters);
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { light_.trace_shadow_rays(world, job, tile, counters); };
         shade({world, job, settings, rays}, trace_shadow_rays);
@@ -65,10 +65,10 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
     }
 }
 
-void PathWave::catch_shadows(const World& world, const TileJob& job, RenderCounters& counters) {
+void PathWave::replace_surfaces(const World& world, const TileJob& job, RenderCounters& counters) {
     for (std::size_t i = 0; i < active_; ++i) {
-        if (!path_history::is_seen(paths_.history[i]) || !world.materials().catches_shadows(paths_.hits[i])) continue;
-        const SeenShadow seen = seen_shadow(world, job, paths_.ray(i), paths_.hits[i], paths_.key(i), counters);
+        if (!path_history::is_seen(paths_.history[i]) || !world.materials().is_replaced(paths_.hits[i])) continue;
+        const SeenInPlace seen = seen_in_place(world, job, paths_.ray(i), paths_.hits[i], paths_.key(i), counters);
         light_.count_light_samples(job, paths_.slot[i], seen.rays);
         light_.set_alpha(paths_.slot[i], seen.alpha);
         paths_.throughput.set(i, paths_.throughput[i] * seen.environment);

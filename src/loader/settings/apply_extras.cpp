@@ -19,7 +19,7 @@ namespace {
 using ExtrasJson = nlohmann::json;
 
 /// Members that may be 0 or 1, as exporters write what is true or false.
-constexpr std::string_view kExtraFlags[] = {"visible_to_camera", "shadow_catcher", "stops_light",
+constexpr std::string_view kExtraFlags[] = {"visible_to_camera", "shadow_catcher", "holdout", "stops_light",
                                             "enabled",           "solid",          "clip"};
 /// Members of lights that say the same in different words: of each group render.json has all or nothing.
 constexpr std::string_view kExtraStrengths[] = {"power", "irradiance", "radiance", "intensity"};

@@ -70,6 +70,14 @@ void apply_factors(const MaterialOverride& change, MaterialDesc& material, Probl
                          fmt::format("'{}' is solid, but transmits no light", shown(material.name)));
 }
 
+/// Makes the camera see `material` as `seen_as`, or no longer so.
+void set_seen_as(SeenAs seen_as, bool is_set, MaterialDesc& material) {
+    if (is_set)
+        material.seen_as = seen_as;
+    else if (material.seen_as == seen_as)
+        material.seen_as = SeenAs::Surface;
+}
+
 void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
     for (const auto& [name, change] : json.materials) {
         if (!check_name(scene.materials, "material", name, change.location, problems)) continue;
@@ -79,7 +87,8 @@ void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& prob
             apply_factors(change, material, problems);
             if (change.priority) apply_priority(*change.priority, change.location, material, problems);
             material.visible_to_camera = change.visible_to_camera.value_or(material.visible_to_camera);
-            material.catches_shadows = change.catches_shadows.value_or(material.catches_shadows);
+            if (change.catches_shadows) set_seen_as(SeenAs::Shadow, *change.catches_shadows, material);
+            if (change.is_holdout) set_seen_as(SeenAs::Hole, *change.is_holdout, material);
             if (change.emission) set_emission(change.emission->color, change.emission->strength, material);
         }
     }

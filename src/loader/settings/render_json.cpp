@@ -288,6 +288,9 @@ MaterialOverride read_material(const Json& value, const SourceLocation& where, P
     if (bool solid = false; object.boolean("solid", solid)) result.solid = solid;
     if (bool visible = true; object.boolean("visible_to_camera", visible)) result.visible_to_camera = visible;
     if (bool catches = true; object.boolean("shadow_catcher", catches)) result.catches_shadows = catches;
+    if (bool is_holdout = true; object.boolean("holdout", is_holdout)) result.is_holdout = is_holdout;
+    if (result.catches_shadows == true && result.is_holdout == true)
+        problems.error(where, "cannot be a shadow catcher and a holdout");
     if (models > 1) problems.error(where, "only one of conductor, dielectric, diffuse and subsurface may be given");
     if (value.is_object() && value.empty()) problems.error(where, "says nothing of the material");
     check_combination(result, models > 0, object);

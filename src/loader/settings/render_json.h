@@ -32,6 +32,7 @@ struct MaterialOverride {
     std::optional<bool> solid;          ///< the mesh bounds a body of the glTF material; none beside a model
     std::optional<bool> visible_to_camera;
     std::optional<bool> catches_shadows;
+    std::optional<bool> is_holdout;
     bool is_from_extras = false;  ///< whether the scene file says it, so that errors are warnings
     SourceLocation location;
 };

@@ -63,10 +63,10 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
-        if (job.world().traits().has_shadow_catchers && finder != nullptr)
+        if (job.world().traits().replaces_surfaces && finder != nullptr)
             for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen && job.world().materials().catches_shadows(hits_[i])) {
-                    finder->on_shadow_catcher(states_[i], rays_[i], hits_[i]);
+                if (states_[i].index == kDirectlySeen && job.world().materials().is_replaced(hits_[i])) {
+                    finder->on_replaced_surface(states_[i], rays_[i], hits_[i]);
                     hits_[i] = {};
                 }
         stamp(job.job.profile, Stage::HitSetup);

@@ -117,6 +117,7 @@ const char* const kGood[] = {
         "h": {"type": "point", "ies": "x.ies"}, "i": {"radius": 1, "visible_to_camera": false, "power": 2},
         "j": {"angle": 0.1, "irradiance": 2}}})",
     R"({"materials": {"a": {"shadow_catcher": true}, "b": {"diffuse": {}, "shadow_catcher": false}}})",
+    R"({"materials": {"a": {"holdout": true, "shadow_catcher": false}, "b": {"roughness": 0.1, "holdout": false}}})",
     R"({"shapes": {}})",
     R"({"shapes": {"a": {"type": "sphere", "radius": 1, "material": "m", "node": "n"}, "b": {"type": "disk", "radius":
         0.1, "position": [0, 1, 2], "rotation": [0, 0, 0, 1]}, "c": {"type": "rectangle", "width": 2, "height": 3,
@@ -297,6 +298,8 @@ const char* const kBad[] = {
     R"({"lights": {"a": {"stops_light": 1}}})",
     R"({"materials": {"a": {"visible_to_camera": 0}}})",
     R"({"materials": {"a": {"shadow_catcher": 1}}})",
+    R"({"materials": {"a": {"holdout": "yes"}}})",
+    R"({"materials": {"a": {"holdout": true, "shadow_catcher": true}}})",
     R"({"studio": 1})",
     R"({"ground": "no"})",
     R"({"lights": 3})",

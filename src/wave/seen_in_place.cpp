@@ -1,12 +1,13 @@
-#include "wave/seen_shadow.h"
+#include "wave/seen_in_place.h"
 
 #include "transport/shadow_catcher.h"
 #include "wave/one_kind_tracer.h"
 
 namespace etendue {
 
-SeenShadow seen_shadow(const World& world, const TileJob& job, const Ray& ray, const Hit& hit, const SampleKey& key,
+SeenInPlace seen_in_place(const World& world, const TileJob& job, const Ray& ray, const Hit& hit, const SampleKey& key,
                        RenderCounters& counters) {
+    if (world.materials().at(hit)->seen_as == SeenAs::Hole) return {.alpha = 0.0f};
     OneKindTracer tracer(world, job, RayKind::Shadow, counters);
     const CaughtShadow caught = caught_shadow(world, world.geometry().surface_point(hit), -ray.direction, ray.time,
                                               {job.sequence, key}, &tracer);
