@@ -4,10 +4,10 @@
 
 #include "core/error.h"
 #include "core/rgb.h"
+#include "scene/seen_as.h"
 #include "scene/texture_desc.h"
 
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -17,13 +17,6 @@
 namespace etendue {
 
 enum class AlphaMode { Opaque, Mask, Blend };
-
-/// Names what the camera sees, straight or through clear surfaces, in the place of a surface.
-enum class SeenAs : std::uint8_t {
-    Surface,
-    Shadow,  ///< how much light is taken from it, as alpha: the surface is a shadow catcher
-    Hole,    ///< nothing, with alpha 0: the surface is a holdout
-};
 
 /// The metals whose measured complex index of refraction is known.
 inline constexpr std::array<std::string_view, 8> kMetalNames{"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ti", "W"};

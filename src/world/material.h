@@ -6,6 +6,7 @@
 #include "core/rgb.h"
 #include "core/vec.h"
 #include "light/beam.h"
+#include "scene/seen_as.h"
 
 #include <cstdint>
 #include <optional>
