@@ -21,8 +21,7 @@ std::string light_name(const std::string& name) {
 bool emits(const SceneDesc& scene, const InstanceDesc& instance) {
     const MeshDesc& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh.index)];
     return std::ranges::any_of(mesh.primitives, [&](const PrimitiveDesc& primitive) {
-        const MaterialDesc& material = scene.materials[static_cast<std::size_t>(primitive.material.index)];
-        return material.emissive_strength > 0.0f && !is_black(material.emissive);
+        return scene.materials[static_cast<std::size_t>(primitive.material.index)].emits();
     });
 }
 

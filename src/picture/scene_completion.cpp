@@ -36,10 +36,11 @@ std::optional<std::string> misses_alpha(const std::string& integrator, const std
 }
 
 void complete_scene(SceneDesc& scene, const SweptSpace& swept, ProblemList& problems) {
+    // The variant decides whether the scene has light.
+    apply_variant(scene);
     add_missing_camera_and_light(scene, swept, problems);
     const ProblemList remaining = validate(scene);
     if (remaining.has_errors()) throw SceneError(remaining);
-    apply_variant(scene);
     require_alpha(scene);
 }
 

@@ -50,10 +50,6 @@ CameraDesc framing_camera(const Bounds& bounds, float aspect) {
     return camera;
 }
 
-bool emits(const MaterialDesc& material) {
-    return material.emissive_strength > 0.0f && !is_black(material.emissive);
-}
-
 /// The element that `handle` refers to, or null: `inspect` shows scenes that did not pass validation too.
 template <typename T>
 const T* find(const std::vector<T>& elements, Handle<T> handle) {
@@ -75,7 +71,7 @@ bool shows_material(const SceneDesc& scene, const Predicate& holds) {
 }
 
 bool has_emissive_instance(const SceneDesc& scene) {
-    return shows_material(scene, emits);
+    return shows_material(scene, [](const MaterialDesc& material) { return material.emits(); });
 }
 
 bool has_light(const SceneDesc& scene) {

@@ -144,6 +144,9 @@ struct MaterialDesc {
     bool visible_to_camera = true;
     SeenAs seen_as = SeenAs::Surface;
 
+    /// Returns whether the surface lights others.
+    [[nodiscard]] bool emits() const { return !unlit && emissive_strength > 0.0f && !is_black(emissive); }
+
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;

@@ -65,8 +65,11 @@ struct SceneDesc {
 /// can be compiled from it.
 [[nodiscard]] ProblemList validate(const SceneDesc& scene);
 
-/// Takes the textures whose image is unreadable from all materials: factors stand alone, normals stay as they are. What
-/// a map of emission was to choose from stays dark, and what one of specular colour and glossiness was to, matte.
+/// Takes a texture of `material` away that cannot be shown: factors stand alone, normals stay as they are. What would
+/// shine or mirror in full without its texture goes dark.
+void leave_out_texture(TextureRef& ref, MaterialDesc& material);
+
+/// Leaves out the textures whose image is unreadable, of all materials.
 void leave_out_unreadable_images(SceneDesc& scene);
 
 /// Returns the camera of this name, or else the first whose node has it; null if there is none.

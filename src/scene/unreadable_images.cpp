@@ -12,7 +12,9 @@ namespace {
 /// This reflectance stands in for a map of specular colour and glossiness: a factor of 1 would be a perfect mirror.
 constexpr float kPlainReflectance = 0.04f;
 
-void leave_out(TextureRef& ref, MaterialDesc& material) {
+}  // namespace
+
+void leave_out_texture(TextureRef& ref, MaterialDesc& material) {
     if (&ref == &material.emissive_texture) material.emissive = Rgb(0.0f);
     if (&ref == &material.specular_color_texture && material.glossiness) {
         material.specular_color *= kPlainReflectance;
@@ -21,8 +23,6 @@ void leave_out(TextureRef& ref, MaterialDesc& material) {
     ref = {};
 }
 
-}  // namespace
-
 void leave_out_unreadable_images(SceneDesc& scene) {
     const auto is_unreadable = [&](const TextureRef& ref) {
         const TextureDesc& texture = scene.textures[static_cast<std::size_t>(ref.texture.index)];
@@ -30,7 +30,7 @@ void leave_out_unreadable_images(SceneDesc& scene) {
     };
     for (MaterialDesc& material : scene.materials)
         for_each_texture(material, [&](TextureRef& ref, std::string_view) {
-            if (ref.valid() && is_unreadable(ref)) leave_out(ref, material);
+            if (ref.valid() && is_unreadable(ref)) leave_out_texture(ref, material);
         });
 }
 

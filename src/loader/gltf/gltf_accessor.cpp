@@ -203,6 +203,12 @@ std::optional<AccessorReader::Elements> AccessorReader::elements(const tinygltf:
     return Elements{nullptr, accessor.count, 0};
 }
 
+std::size_t AccessorReader::count(int accessor) const {
+    const std::vector<tinygltf::Accessor>& accessors = document_.model.accessors;
+    const auto index = static_cast<std::size_t>(accessor);
+    return accessor >= 0 && index < accessors.size() ? accessors[index].count : 0;
+}
+
 bool AccessorReader::allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where) {
     // Counts are below 2^32 and sizes below 2^10 here, or `bytes` is 1.
     if (budget_.take(count * bytes)) return true;

@@ -69,6 +69,9 @@ class AccessorReader {
     [[nodiscard]] bool check_format(const tinygltf::Accessor& accessor, const AttributeFormat& format,
                                     const SourceLocation& where);
 
+    /// Returns how many elements the accessor says that it has; 0 if there is no such accessor.
+    [[nodiscard]] std::size_t count(int accessor) const;
+
     /// Takes memory for `count` elements of `bytes` each from what may still be decoded; false if that is too much,
     /// with an error at `where` if it is the first time.
     [[nodiscard]] bool allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where);

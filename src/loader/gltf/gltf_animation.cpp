@@ -36,13 +36,14 @@ std::vector<double> evaluate(const AnimationKeys& keys, double seconds, bool is_
         for (std::size_t c = 0; c < keys.width; ++c) value[c] = keys.number(key, 1, c);
         return value;
     };
-    const auto next = std::ranges::upper_bound(keys.times, seconds, {}, [](float t) { return static_cast<double>(t); });
+    // Times of keys are single precision: a frame that is at a key has reached it, whichever way that was rounded.
+    const auto next = std::ranges::upper_bound(keys.times, static_cast<float>(seconds));
     if (next == keys.times.begin()) return value_of(0);
     const auto k = static_cast<std::size_t>(next - keys.times.begin()) - 1;
     if (next == keys.times.end() || keys.interpolation == Interpolation::Step) return value_of(k);
 
     const double duration = static_cast<double>(keys.times[k + 1]) - static_cast<double>(keys.times[k]);
-    const double t = (seconds - static_cast<double>(keys.times[k])) / duration;
+    const double t = std::max(seconds - static_cast<double>(keys.times[k]), 0.0) / duration;
     std::vector<double> value = value_of(k);
     const std::vector<double> after = value_of(k + 1);
     if (!keys.is_cubic()) {
@@ -78,8 +79,13 @@ std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const Glt
     const auto is_bad = [](float v) { return !std::isfinite(v); };
     if (std::ranges::any_of(keys.times, is_bad) || std::ranges::any_of(keys.values, is_bad))
         return fail("a key is not finite");
-    if (std::ranges::adjacent_find(keys.times, std::ranges::greater_equal()) != keys.times.end())
-        return fail("the times of the keys do not increase");
+    if (const auto late = std::ranges::adjacent_find(keys.times, std::ranges::greater()); late != keys.times.end())
+        return fail(fmt::format("the time of key {} is before that of key {}", late - keys.times.begin() + 1,
+                                late - keys.times.begin()));
+    const auto equal = std::ranges::adjacent_find(keys.times);
+    if (equal != keys.times.end())
+        problems.warning(where, fmt::format("keys {} and {} have the same time: the later one counts from there on",
+                                            equal - keys.times.begin(), equal - keys.times.begin() + 1));
     const std::size_t rows = keys.times.size() * (keys.is_cubic() ? 3 : 1);
     keys.width = keys.values.size() / rows;
     if (keys.width == 0 || keys.width * rows != keys.values.size() ||

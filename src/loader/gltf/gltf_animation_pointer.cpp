@@ -79,6 +79,10 @@ const Shape* find_shape(const Json& document, const std::vector<std::string>& to
         }
         shape = step_down(*shape, token);
         if (shape == nullptr) return nullptr;
+        // What would be made for the value alone would lack what it must have: the index of a texture.
+        if (place == nullptr &&
+            std::ranges::any_of(std::span(shape->fields, shape->field_count), &ShapeField::required))
+            return nullptr;
     }
     return shape;
 }
@@ -228,6 +232,15 @@ void apply_pointers(std::span<const PointerValue> values, GltfDocument& document
     document.model.materials = std::move(model.materials);
     document.model.cameras = std::move(model.cameras);
     document.model.lights = std::move(model.lights);
+}
+
+void show_animated_nodes(std::span<const PointerValue> values, GltfDocument& document) {
+    for (const PointerValue& value : values) {
+        const std::vector<std::string> tokens = split_pointer(value.pointer);
+        if (tokens.size() != 5 || tokens[0] != "nodes" || tokens[3] != kVisibility) continue;
+        const std::optional<std::size_t> index = to_index(tokens[1]);
+        if (index && *index < document.model.nodes.size()) document.model.nodes[*index].extensions.erase(kVisibility);
+    }
 }
 
 }  // namespace etendue

@@ -29,4 +29,7 @@ namespace etendue {
 /// throws SceneError if the result is no valid document.
 void apply_pointers(std::span<const PointerValue> values, GltfDocument& document, ProblemList& problems);
 
+/// Makes the nodes visible whose visibility `values` animate.
+void show_animated_nodes(std::span<const PointerValue> values, GltfDocument& document);
+
 }  // namespace etendue

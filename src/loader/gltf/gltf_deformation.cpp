@@ -42,10 +42,15 @@ bool MeshDeformation::is_skinned() const {
     return std::ranges::any_of(primitives, [](const PrimitiveDeformation& p) { return p.influences > 0; });
 }
 
+bool MeshDeformation::has_flat_triangles() const {
+    return std::ranges::any_of(primitives, &PrimitiveDeformation::has_flat_triangles);
+}
+
 std::uint32_t MeshDeformation::largest_joint() const {
     std::uint32_t largest = 0;
     for (const PrimitiveDeformation& p : primitives)
-        for (const std::uint32_t joint : p.joints) largest = std::max(largest, joint);
+        for (std::size_t i = 0; i < p.joints.size(); ++i)
+            if (p.weights[i] > 0.0f) largest = std::max(largest, p.joints[i]);
     return largest;
 }
 

@@ -23,7 +23,8 @@ struct PrimitiveDeformation {
     std::vector<MorphTarget> targets;
     std::size_t influences = 0;         ///< joints that move a vertex
     std::vector<std::uint32_t> joints;  ///< `influences` a vertex: indices into the skin's joints
-    std::vector<float> weights;         ///< the same, >= 0
+    std::vector<float> weights;         ///< weights of `joints`, >= 0
+    bool has_flat_triangles = false;    ///< some triangles have no area before they are deformed
 };
 
 /// One for each primitive of a mesh.
@@ -32,7 +33,9 @@ struct MeshDeformation {
     std::vector<PrimitiveDeformation> primitives;
 
     [[nodiscard]] bool is_skinned() const;
-    /// Largest joint index of all vertices; 0 if there is none.
+    /// Returns whether triangles have no area where nothing deforms the mesh.
+    [[nodiscard]] bool has_flat_triangles() const;
+    /// Returns the largest index of a joint that moves a vertex; 0 if there is none.
     [[nodiscard]] std::uint32_t largest_joint() const;
 };
 

@@ -69,10 +69,8 @@ void read_extras(const GltfDocument& document, SceneDesc& scene) {
             for (const CameraDesc& camera : scene.cameras)
                 if (camera.location.pointer == thing) add(document, extras, ExtrasDesc::Of::Camera, camera.name, scene);
         if (extras.of == ExtrasDesc::Of::Light)
-            if (const auto light = std::ranges::find_if(
-                    scene.lights, [&](const LightDesc& each) { return each.location.pointer == thing; });
-                light != scene.lights.end())
-                add(document, extras, ExtrasDesc::Of::Light, light->name, scene);
+            for (const LightDesc& light : scene.lights)
+                if (light.location.pointer == thing) add(document, extras, ExtrasDesc::Of::Light, light.name, scene);
     }
     for (const GltfExtras& extras : document.extras)
         if (extras.of == ExtrasDesc::Of::Node) read_extras_of_node(document, extras, scene);

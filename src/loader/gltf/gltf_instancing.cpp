@@ -37,6 +37,13 @@ class InstanceAttributes {
         return std::move(data->values);
     }
 
+    /// Takes the number of instances from an attribute that is not read, if all are such.
+    void count_others() {
+        if (count_ > 0 || failed_) return;
+        for (const std::string& name : attributes_.Keys())
+            count_ = std::max(count_, accessors_.count(integer_or(attributes_, name, -1)));
+    }
+
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] std::size_t count() const { return count_; }
 
@@ -57,6 +64,7 @@ std::optional<std::vector<Mat4d>> read_instance_transforms(const tinygltf::Value
     const std::vector<float> translations = attributes.read("TRANSLATION", 3, kNoIntegers);
     const std::vector<float> rotations = attributes.read("ROTATION", 4, kSignedFractions);
     const std::vector<float> scales = attributes.read("SCALE", 3, kNoIntegers);
+    attributes.count_others();
     if (attributes.failed() || !accessors.allocate(attributes.count(), sizeof(Mat4d), where)) return std::nullopt;
 
     std::vector<Mat4d> transforms(attributes.count());

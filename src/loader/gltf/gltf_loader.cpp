@@ -92,6 +92,7 @@ SweptSpace GltfLoader::load(const std::filesystem::path& file, const LoadOptions
     read_extras(document, scene);
     const bool is_complete = !scene.cameras.empty() && (!scene.lights.empty() || scene.environment.enabled);
     if (!settings.frame || !sampler || is_complete || problems.has_errors()) return {};
+    show_animated_nodes(sampler->pointer_values(*settings.shown_time()), document);
     return swept_by_animation(document, deformations, *sampler, settings, scene);
 }
 

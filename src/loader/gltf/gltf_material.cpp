@@ -125,6 +125,8 @@ class MaterialReader {
         }
         result.emissive = {factor(emissive[0], "emissiveFactor"), factor(emissive[1], "emissiveFactor"),
                            factor(emissive[2], "emissiveFactor")};
+        if (source.emissiveTexture.index >= 0 && !result.emissive_texture.valid())
+            leave_out_texture(result.emissive_texture, result);
     }
 
     void read_extensions(const ExtensionMap& extensions, MaterialDesc& result) {
@@ -199,6 +201,8 @@ class MaterialReader {
         result.specular_color = unit_color(extension, "specularFactor", 1.0);
         result.specular_color_texture = extension_texture(extension, "specularGlossinessTexture");
         result.glossiness = unit(extension, "glossinessFactor", 1.0);
+        if (extension.Has("specularGlossinessTexture") && !result.specular_color_texture.valid())
+            leave_out_texture(result.specular_color_texture, result);
         result.metallic = 0.0f;
         result.roughness = 1.0f;
         result.metallic_roughness_texture = {};

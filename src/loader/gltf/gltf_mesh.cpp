@@ -53,7 +53,7 @@ class PrimitiveReader {
 
         PrimitiveDesc result;
         result.location = where;
-        if (!read_triangles(result) || !read_attributes(result)) return std::nullopt;
+        if (!read_triangles(result, deformation) || !read_attributes(result)) return std::nullopt;
         if (!read_targets(deformation) || !read_influences(deformation)) return std::nullopt;
         repair_normals(result);
         repair_tangents(result);
@@ -121,8 +121,9 @@ class PrimitiveReader {
         return std::move(draco_->attributes[name]);
     }
 
-    /// Positions and triangles, checked, without degenerate triangles and unused vertices.
-    bool read_triangles(PrimitiveDesc& result) {
+    /// Reads positions and triangles, checked, without degenerate triangles and unused vertices. Triangles that are
+    /// flat until `deformation` moves their vertices are kept.
+    bool read_triangles(PrimitiveDesc& result, PrimitiveDeformation& deformation) {
         failed_ = false;
         vertex_count_ = 0;
         const std::optional<AttributeData> data = attribute("POSITION", kPosition);
@@ -145,7 +146,15 @@ class PrimitiveReader {
         });
         repairs_.add(Repair::BadPositions, bad, at("attributes/POSITION"));
         // Strips are joined by triangles without an area on purpose.
-        const std::size_t removed = remove_degenerate_triangles(result.triangles, positions);
+        const bool is_deformed =
+            !source_->targets.empty() || (!document_.skins.empty() && source_->attributes.contains("JOINTS_0"));
+        const std::size_t removed =
+            is_deformed ? std::erase_if(result.triangles,
+                                        [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; })
+                        : remove_degenerate_triangles(result.triangles, positions);
+        deformation.has_flat_triangles = is_deformed && std::ranges::any_of(result.triangles, [&](const Triangle& t) {
+                                             return is_degenerate(t, positions);
+                                         });
         if (mode != TriangleMode::Strip) repairs_.add(Repair::DegenerateTriangles, removed, where_);
         if (result.triangles.empty()) {
             repairs_.add(Repair::EmptyPrimitives, 1, where_);

@@ -46,7 +46,7 @@ MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& 
         std::ranges::any_of(deformation.primitives, [](const PrimitiveDeformation& p) { return !p.targets.empty(); });
     const bool is_skinned = node.skin >= 0 && deformation.is_skinned();
     const Result unchanged{{node.mesh}, false};
-    if (!is_morphed && !is_skinned) return unchanged;
+    if (!is_morphed && !is_skinned && !deformation.has_flat_triangles()) return unchanged;
 
     std::optional<Binding> binding;
     if (is_skinned) {

@@ -41,6 +41,34 @@ ClipDesc clip_of(const auto& camera) {
     return clip;
 }
 
+/// Moves the transforms at which a moving mesh has lost a dimension a little towards the nearest at which it has not:
+/// rays are traced in the mesh's own space. False if the transform is singular all the time.
+bool open_singular_steps(InstanceDesc& instance) {
+    const auto is_open = [&] {
+        return is_invertible(instance.to_world) && std::ranges::all_of(instance.motion, is_invertible);
+    };
+    if (is_open()) return true;
+    constexpr float kOpening = 0.01f;
+    const std::vector<Mat4f> steps = instance.motion;
+    const auto opened = [&](const Mat4f& step, double place) {
+        const Mat4f* nearest = nullptr;
+        double least = 0.0;
+        for (const Mat4f& other : steps) {
+            const double away = std::abs(static_cast<double>(&other - steps.data()) - place);
+            if (is_invertible(other) && (nearest == nullptr || away < least)) {
+                nearest = &other;
+                least = away;
+            }
+        }
+        return nearest != nullptr ? step * (1.0f - kOpening) + *nearest * kOpening : step;
+    };
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (!is_invertible(steps[i])) instance.motion[i] = opened(steps[i], static_cast<double>(i));
+    if (!is_invertible(instance.to_world))
+        instance.to_world = opened(instance.to_world, 0.5 * (static_cast<double>(steps.size()) - 1.0));
+    return is_open();
+}
+
 /// Turns one node after the other into what it places.
 class Placer {
   public:
@@ -144,7 +172,7 @@ class Placer {
         InstanceDesc instance{
             node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where, current_, is_deformed};
         if (!motion.empty()) instance.motion = thin_out(motion, bounds_of(handle));
-        if (!is_invertible(instance.to_world) || !std::ranges::all_of(instance.motion, is_invertible)) {
+        if (!open_singular_steps(instance)) {
             const Handle<MeshDesc> flat =
                 instance.motion.empty() ? flattened(mesh, to_world, where) : Handle<MeshDesc>();
             problems_.warning(where, flat ? "the node's transform is singular: its mesh is shown flat"

@@ -18,19 +18,6 @@ Vec3d area_vector(const Triangle& t, std::span<const Vec3f> positions) {
     return (to_double(positions[t[1]]) - a).cross(to_double(positions[t[2]]) - a);
 }
 
-bool is_degenerate(const Triangle& t, std::span<const Vec3f> positions) {
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
-    const Vec3d a = to_double(positions[t[0]]);
-    const Vec3d b = to_double(positions[t[1]]);
-    const Vec3d c = to_double(positions[t[2]]);
-    const double longest = std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()});
-    constexpr double kLeastHeight = 1e-9;
-    // Also what single precision could not take a normal of.
-    constexpr double kLeastArea = 1e-30;
-    const double area = area_vector(t, positions).length();
-    return !(area > kLeastHeight * longest) || area < kLeastArea;
-}
-
 }  // namespace
 
 std::vector<Triangle> assemble_triangles(std::span<const std::uint32_t> indices, TriangleMode mode) {
@@ -51,6 +38,19 @@ std::vector<Triangle> assemble_triangles(std::span<const std::uint32_t> indices,
         }
     }
     return triangles;
+}
+
+bool is_degenerate(const Triangle& t, std::span<const Vec3f> positions) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
+    const Vec3d a = to_double(positions[t[0]]);
+    const Vec3d b = to_double(positions[t[1]]);
+    const Vec3d c = to_double(positions[t[2]]);
+    const double longest = std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()});
+    constexpr double kLeastHeight = 1e-9;
+    // Also what single precision could not take a normal of.
+    constexpr double kLeastArea = 1e-30;
+    const double area = area_vector(t, positions).length();
+    return !(area > kLeastHeight * longest) || area < kLeastArea;
 }
 
 std::size_t remove_degenerate_triangles(std::vector<Triangle>& triangles, std::span<const Vec3f> positions) {

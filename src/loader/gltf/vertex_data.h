@@ -20,6 +20,7 @@ enum class TriangleMode { List = 4, Strip = 5, Fan = 6 };
 
 /// Removes triangles without an area: two equal vertices, or a height below 1e-9 of the longest side. Indices must be
 /// in range. Returns how many were removed.
+[[nodiscard]] bool is_degenerate(const Triangle& triangle, std::span<const Vec3f> positions);
 std::size_t remove_degenerate_triangles(std::vector<Triangle>& triangles, std::span<const Vec3f> positions);
 
 /// Renumbers `triangles` so that every vertex is used, and returns the old number of each new vertex, ascending.

@@ -229,6 +229,7 @@ class LightChanges {
         } else {
             refuse(change.angle.has_value(), "angle", "a light at a point has a radius, but no angle");
             refuse(change.irradiance.has_value(), "irradiance", "a light at a point has a power, but no irradiance");
+            refuse(change.power && light.profile, "power", "the IES profile says how strong the light is");
         }
         return reported_ == before;
     }

@@ -20,6 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr NumberRange kFieldOfView{.min = 0.0, .max = 3.141592, .open_min = true};
 constexpr NumberRange kFisheyeAngle{.min = 0.0, .max = 6.2831855, .open_min = true};
 constexpr float kUsualSensorWidth = 36.0f;  ///< millimetres, of 35 mm film
 
@@ -60,7 +61,9 @@ void apply_fisheye_lens(const LensSettings& lens, float aspect, CameraDesc& came
 
 /// Applies focal length and f-number to a perspective camera.
 void apply_photographic(const LensSettings& lens, float image_aspect, CameraDesc& camera) {
-    const float aspect = camera.aspect_ratio > 0.0f ? camera.aspect_ratio : image_aspect;
+    // A focal length is that of the image; else, the file says which view the f-number is of.
+    const bool is_of_image = lens.focal_length || !(camera.aspect_ratio > 0.0f);
+    const float aspect = is_of_image ? image_aspect : camera.aspect_ratio;
     const float height = sensor_height(lens.sensor_width.value_or(kUsualSensorWidth), aspect);
     if (lens.focal_length) camera.yfov = 2.0f * std::atan(0.5f * height / *lens.focal_length);
     camera.focal_length = 0.5f * height / std::tan(0.5f * camera.yfov);
@@ -68,13 +71,25 @@ void apply_photographic(const LensSettings& lens, float image_aspect, CameraDesc
     if (lens.f_stop) camera.lens_radius = camera.focal_length * kMetresPerMillimetre / (2.0f * *lens.f_stop);
 }
 
+/// Holds where a camera stands, in the scene's coordinates, and which way it looks.
+struct View {
+    Vec3f eye{0.0f};
+    Vec3f forward{0.0f, 0.0f, -1.0f};
+};
+
+/// Returns where `camera` looks, or the place that the settings give the chosen camera.
+View view_of(const SceneDesc& scene, const CameraDesc& camera, bool is_chosen) {
+    const Mat4f& m = camera.to_world;
+    if (const std::optional<CameraPlace>& place = scene.settings.camera_place; place && is_chosen)
+        return {Vec3f(place->eye - scene.origin), Vec3f((place->target - place->eye).normalized())};
+    return {Vec3f(m[3][0], m[3][1], m[3][2]), normalize(-Vec3f(m[2][0], m[2][1], m[2][2]))};
+}
+
 /// Focuses `camera` on the node `name`, unless that lies behind it; an error if it does and `must_see` it.
-void focus_on_node(const SceneDesc& scene, const std::string& name, const SourceLocation& where, bool must_see,
-                   CameraDesc& camera, ProblemList& problems) {
+void focus_on_node(const SceneDesc& scene, const std::string& name, const View& view, const SourceLocation& where,
+                   bool must_see, CameraDesc& camera, ProblemList& problems) {
     const Vec3f place = std::ranges::find(scene.nodes, name, &NodeDesc::name)->position();
-    const Vec3f back(camera.to_world[2][0], camera.to_world[2][1], camera.to_world[2][2]);
-    const Vec3f eye(camera.to_world[3][0], camera.to_world[3][1], camera.to_world[3][2]);
-    const float distance = -dot(place - eye, normalize(back));
+    const float distance = dot(place - view.eye, view.forward);
     if (distance > 0.0f)
         camera.focus_distance = distance;
     else if (must_see)
@@ -82,26 +97,45 @@ void focus_on_node(const SceneDesc& scene, const std::string& name, const Source
             where, fmt::format("the node '{}' is not in front of the camera '{}'", shown(name), shown(camera.name)));
 }
 
-/// Notes what is said of the lens of a camera that has none.
-void note_missing_lens(const LensSettings& lens, const SourceLocation& where, const CameraDesc& camera,
-                       ProblemList& problems) {
-    if (camera.type == CameraType::Perspective) return;
+/// Notes what is said of `camera` that cameras of its type do not have: of its lens, and of its view.
+void note_without_effect(const LensSettings& lens, const ViewSettings& view, const SourceLocation& where,
+                         const CameraDesc& camera, ProblemList& problems) {
     std::vector<std::string_view> ignored;
     const auto ignore = [&](bool is_said, std::string_view key) {
         if (is_said) ignored.push_back(key);
     };
-    ignore(camera.lens_radius > 0.0f, "lens_radius");
-    ignore(lens.f_stop.has_value(), "f_stop");
-    ignore(lens.focus_distance.has_value(), "focus_distance");
-    ignore(!lens.focus_node.empty(), "focus_node");
-    ignore(camera.type != CameraType::Fisheye && lens.focal_length, "focal_length");
-    ignore(camera.type != CameraType::Fisheye && lens.sensor_width, "sensor_width");
-    ignore(camera.aperture.blades > 0, "blades");
-    ignore(camera.aperture.rotation != 0.0f, "blade_rotation");
-    ignore(camera.aperture.ratio != 1.0f, "aperture_ratio");
+    const bool is_perspective = camera.type == CameraType::Perspective;
+    const bool is_fisheye = camera.type == CameraType::Fisheye;
+    const bool is_pinhole = !is_perspective || camera.lens_radius == 0.0f;
+    if (!is_perspective) ignore(camera.lens_radius > 0.0f, "lens_radius");
+    if (!is_perspective) ignore(lens.f_stop.has_value(), "f_stop");
+    if (is_pinhole) {
+        ignore(lens.focus_distance.has_value(), "focus_distance");
+        ignore(!lens.focus_node.empty(), "focus_node");
+        ignore(camera.aperture.blades > 0, "blades");
+        ignore(camera.aperture.rotation != 0.0f, "blade_rotation");
+        ignore(camera.aperture.ratio != 1.0f, "aperture_ratio");
+    }
+    if (!is_perspective && !is_fisheye) {
+        ignore(lens.focal_length.has_value(), "focal_length");
+        ignore(lens.sensor_width.has_value(), "sensor_width");
+    }
+    const bool has_lens_alone = !ignored.empty();
+    if (!is_fisheye) {
+        ignore(view.fov.has_value(), "fov");
+        ignore(view.mapping.has_value(), "mapping");
+    }
+    if (!is_perspective) ignore(view.yfov.has_value(), "yfov");
+    if (camera.type != CameraType::Orthographic) ignore(view.ymag.has_value(), "ymag");
     if (ignored.empty()) return;
-    problems.note(where, fmt::format("the camera '{}' has no lens, as perspective ones have, so that it ignores {}",
-                                     shown(camera.name), fmt::join(ignored, ", ")));
+    const std::string_view hint = is_perspective && view.fov         ? "; yfov and focal_length say how much it sees"
+                                  : is_perspective && has_lens_alone ? "; lens_radius or f_stop gives it a lens"
+                                                                     : "";
+    const std::string_view type =
+        std::ranges::find(kCameraTypeNames, camera.type, &std::pair<std::string_view, CameraType>::second)->first;
+    problems.note(where,
+                  fmt::format("the camera '{}' is {}, and ignores {}{}", shown(camera.name),
+                              is_perspective && is_pinhole ? "a pinhole" : type, fmt::join(ignored, ", "), hint));
 }
 
 bool has_node(const SceneDesc& scene, const std::string& name, const SourceLocation& where, ProblemList& problems) {
@@ -141,6 +175,8 @@ ViewSettings read_view(JsonObject& object) {
         if (float read = 0.0f; object.number(key, range, read)) value = read;
     };
     if (CameraType type{}; object.choice("type", kCameraTypeNames, type)) view.type = type;
+    number("yfov", kFieldOfView, view.yfov);
+    number("ymag", kPositive, view.ymag);
     number("fov", kFisheyeAngle, view.fov);
     if (FisheyeType mapping{}; object.choice("mapping", kFisheyeTypeNames, mapping)) view.mapping = mapping;
     if (Vec2f shift; object.vector("shift", shift)) view.shift = shift;
@@ -160,6 +196,8 @@ ViewSettings read_view(JsonObject& object) {
 
 void apply_view(const ViewSettings& view, CameraDesc& camera) {
     camera.type = view.type.value_or(camera.type);
+    camera.yfov = view.yfov.value_or(camera.yfov);
+    camera.ymag = view.ymag.value_or(camera.ymag);
     camera.fov = view.fov.value_or(camera.fov);
     camera.fisheye = view.mapping.value_or(camera.fisheye);
     camera.shift = view.shift.value_or(camera.shift);
@@ -175,6 +213,8 @@ CameraChange read_camera_change(const Json& value, const SourceLocation& where, 
     JsonObject object(value, where, problems);
     CameraChange change{.lens = read_lens(object), .view = read_view(object), .location = where};
     object.boolean("clip", change.view.clips_as_file);
+    if (change.view.yfov && change.lens.focal_length)
+        problems.error(object.at("yfov"), "focal_length says the same: leave one of both out");
     object.finish();
     return change;
 }
@@ -219,14 +259,16 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
         if (is_photographic && camera.type == CameraType::Perspective)
             apply_photographic(lens, scene.settings.film.aspect(), camera);
         if (change != nullptr || &camera == chosen)
-            note_missing_lens(lens, change != nullptr ? change->location : camera.location, camera, problems);
+            note_without_effect(lens, change != nullptr ? change->view : ViewSettings(),
+                                change != nullptr ? change->location : camera.location, camera, problems);
         if (camera.type != CameraType::Perspective) camera.lens_radius = 0.0f;
         if (lens.focus_node.empty()) continue;
         const bool is_own = change != nullptr && !change->lens.focus_node.empty();
         const SourceLocation where = at_focus(lens.location);
         ProblemList found;
         if (is_own ? has_node(scene, lens.focus_node, where, found) : has_node_of_all)
-            focus_on_node(scene, lens.focus_node, where, is_own || &camera == chosen, camera, found);
+            focus_on_node(scene, lens.focus_node, view_of(scene, camera, &camera == chosen), where,
+                          is_own || &camera == chosen, camera, found);
         for (Problem problem : found.all()) {
             if (is_own && change->is_from_extras) problem.severity = std::min(problem.severity, Severity::Warning);
             problems.add(std::move(problem));

@@ -28,6 +28,8 @@ struct LensSettings {
 /// Holds what is said of what a camera shows; nothing for what it has itself.
 struct ViewSettings {
     std::optional<CameraType> type{};
+    std::optional<float> yfov{};
+    std::optional<float> ymag{};
     std::optional<float> fov{};
     std::optional<FisheyeType> mapping{};
     std::optional<Vec2f> shift{};

@@ -16,7 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr NumberRange kFieldOfView{.min = 0.0, .max = 3.141592, .open_min = true};
 constexpr NumberRange kIor{.min = 1.0, .max = 3.0};
 constexpr NumberRange kAnisotropy{.min = -0.999, .max = 0.999};
 constexpr std::int64_t kMaxPriority = 1'000'000;
@@ -69,8 +68,6 @@ CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim
     const bool has_position = object.vector("position", view.position);
     const bool has_look_at = object.vector("look_at", view.look_at);
     object.vector("up", view.up);
-    object.number("yfov", kFieldOfView, camera.yfov);
-    object.number("ymag", kPositive, camera.ymag);
     object.number("lens_radius", kNotNegative, camera.lens_radius);
     view.focuses = !object.number("focus_distance", kPositive, camera.focus_distance);
     apply_view(read_view(object), camera);

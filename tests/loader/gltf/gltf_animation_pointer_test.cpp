@@ -48,6 +48,27 @@ TEST(AnimationPointer, MaterialsHaveTheValuesOfTheMoment) {
     EXPECT_EQ(load_at(cutoff, 0.25).scene.materials.at(0).alpha_cutoff, 0.25f);
 }
 
+TEST(AnimationPointer, WhatIsNotThereIsNotMade) {
+    const LoadedScene loaded = load_at(pointing("/materials/0/normalTexture/scale", {0, 1}, 1), 0.5);
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "cannot be animated")) << listing(loaded.problems);
+}
+
+// The node is hidden at first; the camera and the ground are placed for all that is shown at any time.
+TEST(AnimationPointer, HiddenNodesCountForTheStageOfTheWhole) {
+    GltfBuilder builder = pointing("/nodes/0/extensions/KHR_node_visibility/visible", {0, 1}, 1);
+    builder.json["animations"][0]["samplers"][0]["interpolation"] = "STEP";
+    builder.json["animations"][0]["samplers"][0]["output"] =
+        builder.accessor(std::vector<std::uint8_t>{0, 1}, "SCALAR", 5121, 2);
+    builder.json["extensionsUsed"].push_back("KHR_node_visibility");
+    builder.json.erase("cameras");
+    builder.json["nodes"][1].erase("camera");
+    for (const int frame : {0, 24}) {
+        const LoadedScene loaded = builder.load({.frame = frame});
+        EXPECT_EQ(loaded.scene.instances.size(), frame == 0 ? 0u : 1u) << listing(loaded.problems);
+        EXPECT_EQ(loaded.swept.bounds.max, Vec3f(1, 1, 0)) << "frame " << frame;
+    }
+}
+
 TEST(AnimationPointer, CamerasAndLightsToo) {
     EXPECT_EQ(load_at(pointing("/cameras/0/perspective/yfov", {0.5f, 1.5f}, 1), 0.5).scene.cameras.at(0).yfov, 1.0f);
     EXPECT_EQ(load_at(pointing("/extensions/KHR_lights_punctual/lights/0/intensity", {0, 8}, 1), 0.5)

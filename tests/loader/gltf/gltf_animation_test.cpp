@@ -69,6 +69,30 @@ TEST(Animation, StepsWaitForTheNextKey) {
     EXPECT_EQ(moved(builder, 3.0, Vec3f(1.0f)), Vec3f(2.0f));
 }
 
+// Key times are the nearest floats to the times of frames, above or below.
+TEST(Animation, EachFrameReachesItsOwnKey) {
+    constexpr int kFrames = 240;
+    std::vector<float> times;
+    std::vector<float> places;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        times.push_back(static_cast<float>(static_cast<double>(frame) / 24.0));
+        for (const float number : {static_cast<float>(frame), 0.0f, 0.0f}) places.push_back(number);
+    }
+    GltfBuilder builder = animated("translation", places, 3, "STEP");
+    builder.json["animations"][0]["samplers"][0]["input"] = builder.floats(times, 1);
+    for (int frame = 0; frame < kFrames; ++frame)
+        ASSERT_EQ(moved(builder, static_cast<double>(frame) / 24.0, Vec3f(0.0f)).x, static_cast<float>(frame));
+}
+
+TEST(Animation, TheLaterOfTwoKeysAtOneTimeCounts) {
+    GltfBuilder builder = animated("translation", {0, 0, 0, 2, 0, 0, 5, 0, 0, 6, 0, 0}, 3, "LINEAR");
+    builder.json["animations"][0]["samplers"][0]["input"] = builder.floats({0.0f, 1.0f, 1.0f, 2.0f}, 1);
+    EXPECT_EQ(moved(builder, 0.5, Vec3f(0.0f)).x, 1.0f);
+    EXPECT_EQ(moved(builder, 1.0, Vec3f(0.0f)).x, 5.0f);
+    EXPECT_EQ(moved(builder, 1.5, Vec3f(0.0f)).x, 5.5f);
+    EXPECT_TRUE(has_problem(builder.load(at_time(1.0)).problems, Severity::Warning, "keys 1 and 2 have the same time"));
+}
+
 // A quarter turn about z, given as its antipode: the shorter way, at an even pace.
 TEST(Animation, RotationsGoTheShorterWayAtAnEvenPace) {
     const float s = std::sqrt(0.5f);
@@ -117,7 +141,7 @@ TEST(Animation, WhatCannotBeReadIsAnError) {
               std::string::npos);
     EXPECT_NE(error_of([](Json& a, GltfBuilder& b) {
                   a["samplers"][0]["input"] = b.floats({3.0f, 1.0f}, 1);
-              }).find("do not increase"),
+              }).find("the time of key 1 is before that of key 0"),
               std::string::npos);
     EXPECT_NE(error_of([](Json& a, GltfBuilder& b) {
                   a["samplers"][0]["output"] = b.floats({1, 2, 3}, 3);
@@ -236,7 +260,7 @@ TEST(Animation, ThoseThatAreNotShownAreReadIfAsked) {
          {LoadOptions{.every_animation = true}, LoadOptions{.adjust = at_time(1.0).adjust, .every_animation = true}}) {
         const ProblemList problems = builder.load(options).problems;
         EXPECT_FALSE(problems.has_errors()) << listing(problems);
-        EXPECT_TRUE(has_problem(problems, Severity::Warning, "increas", "/animations/1/channels/0"))
+        EXPECT_TRUE(has_problem(problems, Severity::Warning, "is before", "/animations/1/channels/0"))
             << listing(problems);
     }
 }
@@ -267,6 +291,28 @@ TEST(Morph, AnimatedWeightsComeFirst) {
         {{"samplers", {{{"input", builder.floats({0, 1}, 1)}, {"output", builder.floats({0, 4}, 1)}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
     EXPECT_EQ(third_vertex(builder.load(at_time(0.25))), Vec3f(0, 1, 2));
+}
+
+// At rest the third vertex lies on the edge of the other two; the target lifts it.
+TEST(Morph, OpensTrianglesThatAreFlatAtRest) {
+    GltfBuilder builder = morphing();
+    nlohmann::json& primitive = builder.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["POSITION"] = builder.floats({0, 0, 0, 1, 0, 0, 0.5f, 0, 0}, 3);
+    const LoadedScene flat = builder.load();
+    ASSERT_FALSE(flat.problems.has_errors()) << listing(flat.problems);
+    const auto triangles = [](const LoadedScene& loaded) {
+        std::size_t count = 0;
+        for (const InstanceDesc& instance : loaded.scene.instances)
+            for (const PrimitiveDesc& p :
+                 loaded.scene.meshes.at(static_cast<std::size_t>(instance.mesh.index)).primitives)
+                count += p.triangles.size();
+        return count;
+    };
+    EXPECT_EQ(triangles(flat), 0u);
+    builder.json["nodes"][0]["weights"] = {1.0};
+    const LoadedScene open = builder.load();
+    EXPECT_EQ(triangles(open), 1u);
+    EXPECT_EQ(third_vertex(open), Vec3f(0.5f, 0, 2));
 }
 
 TEST(Morph, NormalsFollow) {
@@ -333,6 +379,15 @@ TEST(Skin, KeepsItsFrontWhereJointsMirror) {
     const Vec3f front = cross(p.positions[b] - p.positions[a], p.positions[c] - p.positions[a]);
     EXPECT_GT(front.z, 0.0f) << "a mirror across x turns no front around";
     EXPECT_GT(dot(p.normals[0], front), 0.0f) << "else the smooth normals are of no use";
+}
+
+TEST(Skin, JointsWithoutWeightNeedNotExist) {
+    GltfBuilder builder = skinned();
+    const std::vector<std::uint8_t> joints{0, 255, 255, 255, 0, 255, 255, 255, 1, 255, 255, 255};
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = builder.accessor(joints, "VEC4", 5121, 3);
+    const LoadedScene loaded = builder.load();
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(third_vertex(loaded), Vec3f(0, 5, 1));
 }
 
 TEST(Skin, WhatCannotBeReadIsAnError) {

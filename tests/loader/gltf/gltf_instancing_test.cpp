@@ -30,6 +30,14 @@ TEST(GpuInstancing, PlacesTheMeshByScaleRotationAndTranslation) {
     EXPECT_LT(length(transform_point(loaded.scene.instances[1].to_world, {1, 0, 0}) - Vec3f(1, 7, 10)), 1e-5f);
 }
 
+TEST(GpuInstancing, AttributesOfOtherProgramsCountInstances) {
+    const LoadedScene loaded = instanced([](GltfBuilder& b) {
+                                   return nlohmann::json{{"_ID", b.floats({1, 2, 3}, 1)}};
+                               }).load();
+    ASSERT_EQ(loaded.scene.instances.size(), 3u) << listing(loaded.problems);
+    EXPECT_EQ(transform_point(loaded.scene.instances[2].to_world, Vec3f(0.0f)), Vec3f(0, 0, 10));
+}
+
 TEST(GpuInstancing, RotationsMayBeNormalisedIntegers) {
     const LoadedScene loaded = instanced([](GltfBuilder& b) {
                                    const std::vector<std::int16_t> half_turn{0, 0, 32767, 0};

@@ -69,6 +69,24 @@ TEST(GltfMotion, StraightMotionHasTwoSteps) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "1 punctual lights move"));
 }
 
+// It grows from nothing at 0 s to its full size at 1 s.
+TEST(GltfMotion, WhatGrowsFromNothingIsThereWhileTheShutterIsOpen) {
+    GltfBuilder builder = sliding();
+    builder.json["animations"][0]["samplers"][0]["output"] = builder.floats({0, 0, 0, 1, 1, 1}, 3);
+    builder.json["animations"][0]["channels"][0]["target"]["path"] = "scale";
+    builder.json["nodes"].erase(2);
+    builder.json["nodes"][0].erase("children");
+    const LoadedScene loaded = builder.load(shutter(0.25, -0.25, 0.25));
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    ASSERT_EQ(loaded.scene.instances.size(), 2u) << listing(loaded.problems);
+    const InstanceDesc& growing = loaded.scene.instances[0];
+    EXPECT_EQ(growing.to_world[0][0], 0.25f) << "in the middle";
+    EXPECT_EQ(growing.motion.back()[0][0], 0.5f);
+    EXPECT_GT(growing.motion.front()[0][0], 0.0f);
+    EXPECT_LT(growing.motion.front()[0][0], 0.01f);
+    EXPECT_EQ(builder.load(shutter(-1.0, -0.25, 0.25)).scene.instances.size(), 1u) << "before it grows";
+}
+
 TEST(GltfMotion, AKeyInTheShutterTakesMoreSteps) {
     // At rest up to 0 s: the path bends in the middle.
     const LoadedScene loaded = sliding().load(shutter(0.0, -0.5, 0.5));

@@ -2,9 +2,11 @@
 
 #include "loader/gltf/gltf_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace etendue {
@@ -320,6 +322,33 @@ TEST(RenderJson, LensesAsPhotographersSayThem) {
     EXPECT_NEAR(own.focal_length, focal_length, 1e-4f);
     EXPECT_NEAR(own.lens_radius, focal_length * 1e-3f / 8.0f, 1e-8f);
     EXPECT_NEAR(camera(load_lens(R"({"focus_node": "in focus"})")).focus_distance, 4.0f, 1e-6f);
+    // A focal length is that of the image, whatever view the file's camera has.
+    const CameraDesc other = camera(load_lens(R"({"size": [108, 192], "focal_length": 50})", 16.0 / 9.0));
+    EXPECT_NEAR(other.yfov, 2.0f * std::atan(18.0f / 50.0f), 1e-6f);
+}
+
+TEST(RenderJson, FocusesOnNodesFromWhereTheCameraIsPlaced) {
+    const LoadedScene own = load_lens(R"({"focus_node": "in focus"})");
+    const Vec3f node = std::ranges::find(own.scene.nodes, "in focus", &NodeDesc::name)->position();
+    const Vec3d eye = Vec3d(node) + Vec3d(0.0, 0.0, 20.0);
+    const LoadedScene placed =
+        load_lens(fmt::format(R"({{"focus_node": "in focus", "camera_place": [{}, {}, {}, {}, {}, {}]}})", eye.x, eye.y,
+                              eye.z, eye.x, eye.y, eye.z - 1.0));
+    EXPECT_FALSE(placed.problems.has_errors()) << listing(placed.problems);
+    EXPECT_NEAR(placed.scene.cameras.at(0).focus_distance, 20.0f, 1e-4f);
+}
+
+TEST(RenderJson, NotesWhatACameraOfItsTypeDoesNotHave) {
+    const auto note_of = [](const char* json) { return listing(load_lens(json).problems); };
+    EXPECT_NE(note_of(R"({"cameras": {"main": {"fov": 0.3, "ymag": 4}}})").find("ignores fov, ymag; yfov and focal"),
+              std::string::npos);
+    EXPECT_NE(note_of(R"({"cameras": {"main": {"focus_distance": 3, "blades": 6}}})")
+                  .find("is a pinhole, and ignores focus_distance, blades; lens_radius or f_stop"),
+              std::string::npos);
+    const LoadedScene flat = load_lens(R"({"cameras": {"main": {"type": "orthographic", "ymag": 4, "yfov": 0.5}}})");
+    EXPECT_EQ(flat.scene.cameras.at(0).ymag, 4.0f);
+    EXPECT_NE(listing(flat.problems).find("is orthographic, and ignores yfov"), std::string::npos);
+    EXPECT_EQ(load_lens(R"({"cameras": {"main": {"yfov": 0.25}}})").scene.cameras.at(0).yfov, 0.25f);
 }
 
 // What is said of one camera goes before what is said of all, which it keeps the rest of.

@@ -117,6 +117,7 @@ const char* const kGood[] = {
         "h": {"type": "point", "ies": "x.ies"}, "i": {"radius": 1, "visible_to_camera": false, "power": 2},
         "j": {"angle": 0.1, "irradiance": 2}}})",
     R"({"materials": {"a": {"shadow_catcher": true}, "b": {"diffuse": {}, "shadow_catcher": false}}})",
+    R"({"cameras": {"a": {"yfov": 1}, "b": {"type": "orthographic", "ymag": 2}}})",
     R"({"materials": {"a": {"holdout": true, "shadow_catcher": false}, "b": {"roughness": 0.1, "holdout": false}}})",
     R"({"shapes": {}})",
     R"({"shapes": {"a": {"type": "sphere", "radius": 1, "material": "m", "node": "n"}, "b": {"type": "disk", "radius":
@@ -299,6 +300,8 @@ const char* const kBad[] = {
     R"({"materials": {"a": {"visible_to_camera": 0}}})",
     R"({"materials": {"a": {"shadow_catcher": 1}}})",
     R"({"materials": {"a": {"holdout": "yes"}}})",
+    R"({"cameras": {"a": {"yfov": 4}}})",
+    R"({"cameras": {"a": {"yfov": 1, "focal_length": 50}}})",
     R"({"materials": {"a": {"holdout": true, "shadow_catcher": true}}})",
     R"({"studio": 1})",
     R"({"ground": "no"})",
