@@ -40,9 +40,19 @@ Answer ask(std::vector<std::string> arguments, const BatchOptions& options) try 
     ChildProcess child(
         {.arguments = std::move(arguments), .memory_limit = options.max_memory, .most_output = kMostOutput});
     const auto ignore = [](const std::string&) {};
-    while (child.wait(kBetweenLooksAtChild, ignore, ignore))
-        if (interrupt_requested()) child.send(SIGKILL);
+    // Libraries that are denied memory may wait for ever.
+    const auto limit = std::chrono::duration<double, std::ratio<60>>(options.stall_minutes);
+    const auto start = std::chrono::steady_clock::now();
+    bool is_stalled = false;
+    while (child.wait(kBetweenLooksAtChild, ignore, ignore)) {
+        is_stalled = is_stalled || (options.stall_minutes > 0.0 && std::chrono::steady_clock::now() - start > limit);
+        if (interrupt_requested() || is_stalled) child.send(SIGKILL);
+    }
     Answer answer;
+    if (is_stalled) {
+        answer.error = fmt::format("error: nothing was known of it after --stall-minutes {:g}", options.stall_minutes);
+        return answer;
+    }
     if (!child.output_was_cut()) answer.json = nlohmann::json::parse(child.output(), nullptr, false);
     if (interrupt_requested() || (child.end().signal == 0 && child.end().exit_code == 0)) return answer;
     answer.error = error_of(child.last_messages());

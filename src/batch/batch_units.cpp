@@ -263,7 +263,12 @@ std::vector<fs::path> files_of(const std::vector<BatchTask>& tasks, const BatchO
         const auto next = images.lower_bound(beginning);
         const bool may_meet = next != images.end() && next->starts_with(beginning);
         if (is_new || may_meet) of_scene->second = layers_with_files(task.job.scene, options.overrides, may_meet);
-        for (fs::path& file : files_of_image(task.job.output, of_scene->second)) {
+        std::vector<fs::path> of_image = files_of_image(task.job.output, of_scene->second);
+        if (options.denoise) {
+            const fs::path denoised = denoised_path(task.job.output);
+            of_image.insert(of_image.end(), {denoised, fs::path(denoised).replace_extension(".png")});
+        }
+        for (fs::path& file : of_image) {
             if (!taken.insert(file).second)
                 throw SceneError({task.job.scene.string(), {}},
                                  fmt::format("two files would be written to '{}'; render the scenes to different "
@@ -271,9 +276,6 @@ std::vector<fs::path> files_of(const std::vector<BatchTask>& tasks, const BatchO
                                              file.string()));
             files.push_back(std::move(file));
         }
-        if (!options.denoise) continue;
-        files.push_back(denoised_path(task.job.output));
-        files.push_back(fs::path(files.back()).replace_extension(".png"));
     }
     return files;
 }

@@ -70,7 +70,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
     report.scene_path = arguments.scene;
     report.width = settings.film.width;
     report.height = settings.film.height;
-    if (settings.film.crop) report.crop = variant.sampling.window;
+    if (variant.sampling.window != PixelRect{0, 0, report.width, report.height}) report.crop = variant.sampling.window;
     report.working_space = settings.color.working_space;
     report.display = settings.color.display;
     report.view = settings.color.view;
@@ -147,6 +147,12 @@ std::vector<std::filesystem::path> prepare_report_files(const CompareArguments& 
                                                         const std::vector<Variant>& variants) {
     std::vector<std::filesystem::path> inputs;
     if (!arguments.reference.empty()) inputs.emplace_back(arguments.reference);
+    const std::filesystem::path images = std::filesystem::path(arguments.output) / kImagesDirectory;
+    std::error_code none;  // neither may be there
+    if (arguments.keep_images && !arguments.reference.empty() &&
+        std::filesystem::equivalent(std::filesystem::path(arguments.reference).parent_path() / ".", images, none))
+        throw UsageError(fmt::format("--reference lies in {}, whose images --keep-images replaces: move it elsewhere",
+                                     images.string()));
     for (const Variant& variant : variants) inputs.insert(inputs.end(), variant.inputs.begin(), variant.inputs.end());
     return prepare_directory(arguments.output, file_names(arguments), inputs);
 }
@@ -214,9 +220,9 @@ void write_files(const CompareArguments& arguments, const Findings& found, const
     if (!arguments.reference.empty()) return;
     if (found.reference) {
         write_reference(directory / kReferenceFile, *found.reference, found.report, colors);
-    } else {
-        std::error_code ignored;  // it may never have been there
-        std::filesystem::remove(directory / kReferenceFile, ignored);
+    } else if (!interrupt_requested() && remove_own_reference(directory / kReferenceFile)) {
+        log_warning("note: {}, of an earlier comparison, is removed: this one has none",
+                    (directory / kReferenceFile).string());
     }
 }
 

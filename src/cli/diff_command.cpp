@@ -132,6 +132,18 @@ MapWritten write_map(const MeasuredPair& pair, const Measure& measure, const Dif
     return written;
 }
 
+/// Throws UsageError for options that would change nothing of what `names` measure.
+void require_effect(const DiffArguments& arguments, const std::vector<std::string>& names) {
+    const bool has_flip = std::ranges::any_of(names, [](const std::string& name) { return name.ends_with("flip"); });
+    const auto& flip = arguments.options.flip;
+    if (arguments.map_largest && std::filesystem::path(arguments.map).extension() != ".png")
+        throw UsageError("--map-max is of --map FILE.png");
+    if (flip.pixels_per_degree != kFlipPixelsPerDegree && !has_flip)
+        throw UsageError("--ppd is of FLIP, which is not among the measures");
+    if (flip.start_exposure && std::ranges::find(names, "hdr-flip") == names.end())
+        throw UsageError("--exposures is of hdr-flip, which is not among the measures");
+}
+
 /// Takes no measure that the images are not made for. Says why on stderr if it is asked to.
 bool can_measure(const ImagePair& pair, const std::vector<std::string>& names, const DiffArguments& arguments) {
     if (pair.is_encoded && std::ranges::find(names, "hdr-flip") != names.end()) {
@@ -162,6 +174,7 @@ ExitCode run_diff(const DiffArguments& arguments) {
     ImagePair images = read_image_pair(arguments.image, arguments.reference, colors);
     const std::vector<std::string> names = chosen_measures(arguments, images.is_encoded);
     if (!can_measure(images, names, arguments)) return ExitCode::UsageError;
+    require_effect(arguments, names);
     add_flip_warning(images, names, colors);
     if (!arguments.quiet)
         for (const std::string& warning : images.warnings) log_warning("warning: {}", warning);

@@ -34,7 +34,11 @@ ExitCode run_live(const LiveArguments& arguments) {
     std::optional<TevViewer> tev;
     if (arguments.tev) tev.emplace(*arguments.tev);
     Explorer::TakeImage take;
-    if (tev) take = [&tev](const std::string& name, const OutputFrame& frame) { tev->show(name, frame); };
+    if (tev)
+        take = [&tev](const std::string& name, const OutputFrame& frame) {
+            tev->show(name, frame);
+            return !tev->is_lost();
+        };
     std::optional<NothingToKeep> while_reading(std::in_place);
     Explorer explorer(prepare_scene(arguments.scene, arguments.overrides), arguments.given, threads, std::move(take));
     while_reading.reset();

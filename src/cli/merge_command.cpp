@@ -45,12 +45,13 @@ struct MergeArguments {
     bool json = false;
 };
 
-/// True if the image is all that was asked for when its parts were rendered. Parts of one window may have been meant to
-/// be a crop; other ones are tiles of the whole image.
-bool is_whole(const MergedParts& merged, std::uint32_t spp_requested) {
+/// Returns whether the image is all that was asked for when its parts were rendered. Parts of one window may have been
+/// meant to be a crop; other ones are tiles of the whole image, and parts that were merged of such have no hash.
+bool is_whole(const MergedParts& merged, const RenderStatistics& statistics) {
     const RenderState& state = merged.sum.state;
-    return state.spp_done >= spp_requested &&
-           (merged.has_one_window || state.film.window() == state.film.splat_window());
+    const bool may_be_a_crop = merged.has_one_window && !statistics.settings_hash.empty();
+    return state.spp_done >= static_cast<std::uint32_t>(std::max(statistics.spp_requested, 0)) &&
+           (may_be_a_crop || state.film.window() == state.film.splat_window());
 }
 
 /// Warns of the samples that are missing before and behind those of the parts, and of a common window of the parts that
@@ -146,14 +147,15 @@ ExitCode run_merge(const MergeArguments& arguments) {
     const MergedParts merged = merge_given_parts(arguments);
     const RenderState& state = merged.sum.state;
     ImageDescription image = description_of(merged.sum, arguments.parts.front());
+    if (!merged.has_one_window) describe_window(state, image);
+    const std::string of_part = merged.has_one_window ? merged.sum.description : to_text(image);
     image.statistics.load = timer.elapsed();
     image.statistics.command = arguments.command;
     const auto spp_requested = static_cast<std::uint32_t>(std::max(image.statistics.spp_requested, 0));
-    const bool complete = is_whole(merged, spp_requested);
-    if (!merged.has_one_window) describe_window(state, image);
+    const bool complete = is_whole(merged, image.statistics);
     describe_state(image, state, complete, "merged");
     if (is_partial(output)) {
-        write_checkpoint(output, merged.sum.identity, merged.sum.description, state);
+        write_checkpoint(output, merged.sum.identity, of_part, state);
     } else {
         if (!arguments.quiet) note_missing(merged, spp_requested);
         write_merged_image(arguments, paths, state, image);

@@ -3,6 +3,7 @@
 #include "core/memory_nodes.h"
 #include "core/source_date.h"
 #include "output/software_name.h"
+#include "picture/render_setup.h"
 #include "processor/ray_code.h"
 #include "report/profile_advice.h"
 #include "report/profile_figures.h"
@@ -69,6 +70,9 @@ void describe(ProfileReport& report, const RenderSettings& settings, const World
     report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(creation_time()));
     report.width = settings.film.width;
     report.height = settings.film.height;
+    if (const PixelRect window = make_render_options(settings).window;
+        window != PixelRect{0, 0, report.width, report.height})
+        report.crop = window;
     report.max_depth = settings.integrator.lengths.max_depth;
     report.seed = settings.seed;
     report.settings = settings_of_work(settings);

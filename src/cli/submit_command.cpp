@@ -123,6 +123,15 @@ void print_json(const SlurmFarm& farm, const FarmWork& work, const std::vector<s
     print_data(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+/// Returns what was submitted before. A dry run does without a cluster that can be asked.
+std::vector<FarmImageStatus> submitted_before(const SubmitArguments& arguments) try {
+    return status_of(arguments.request.farm.output);
+} catch (const IoError& error) {
+    if (!arguments.dry_run) throw;
+    log_warning("note: nothing is taken to be under way: {}", error.what());
+    return {};
+}
+
 /// Returns how many tasks a job array may have. A dry run does without a cluster that can be asked.
 std::size_t array_size_for(const SubmitArguments& arguments) try {
     return slurm_max_array_size();
@@ -141,7 +150,7 @@ ExitCode run_submit(const SubmitArguments& arguments) {
         return ExitCode::InvalidScene;
     }
     const fs::path& output = arguments.request.farm.output;
-    const FarmWork work = find_farm_work(arguments.request, tasks, status_of(output));
+    const FarmWork work = find_farm_work(arguments.request, tasks, submitted_before(arguments));
     if (interrupt_requested()) {
         log_error("interrupted before anything was submitted");
         return interrupt_exit_code();
@@ -247,8 +256,9 @@ void add_task_options(CLI::App& command, const std::shared_ptr<SubmitArguments>&
 std::vector<GivenOption> options_of_tasks(std::vector<GivenOption> given) {
     given = without(std::move(given), "--frames");
     for (GivenOption& option : given)
-        if (option.name == "--environment" && option.value && *option.value != kNoEnvironment &&
-            *option.value != kNeutralEnvironment)
+        if (option.value &&
+            (option.name == "--assets" || (option.name == "--environment" && *option.value != kNoEnvironment &&
+                                           *option.value != kNeutralEnvironment)))
             option.value = fs::absolute(*option.value).string();
     return given;
 }

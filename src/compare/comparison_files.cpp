@@ -93,6 +93,17 @@ bool is_kept_render(const fs::path& path) {
            file.ends_with(fmt::format("-seed{}.exr", text_of(image, "etendue:seed")));
 }
 
+/// Returns whether `path` is a reference that a comparison has made.
+bool is_own_reference(const fs::path& path) {
+    try {
+        const ChannelImage image = read_channels(path);
+        return !text_of(image, kSeedsAttribute).empty() ||
+               text_of(image, "etendue:command").starts_with("etendue compare ");
+    } catch (const IoError&) {
+        return false;
+    }
+}
+
 /// Removes what `is_kept_render` finds in `directory`.
 void remove_kept_renders(const fs::path& directory) {
     std::vector<fs::path> found;
@@ -153,6 +164,11 @@ void write_reference(const fs::path& path, const Reference& reference, const Com
     ExrDriver(path, colors, PixelDepth::Float).write(frame);
 }
 
+bool remove_own_reference(const fs::path& path) {
+    std::error_code ignored;  // one that stays is only one too many
+    return fs::exists(path, ignored) && is_own_reference(path) && fs::remove(path, ignored);
+}
+
 std::optional<ReferenceOrigin> read_reference_origin(const fs::path& path, const PixelRect& window) {
     ChannelImage image;
     try {
@@ -173,6 +189,7 @@ std::optional<ReferenceOrigin> read_reference_origin(const fs::path& path, const
     const auto channels = static_cast<std::size_t>(image.pixels.channels);
     ImageF variance(window.width(), window.height(), 3);
     for (std::size_t c = 0; c < 3; ++c) {
+        if (seeds.empty()) return origin;  // a layer of the user's may have the name, too
         const auto noise = static_cast<std::size_t>(
             std::ranges::find(image.channel_names, fmt::format("{}.{}", kNoiseLayer, "RGB"[c])) -
             image.channel_names.begin());

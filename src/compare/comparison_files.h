@@ -28,6 +28,9 @@ void write_data_files(const std::filesystem::path& directory, const ComparisonRe
 /// Returns a note on the names that plots in PDF cannot show; else empty.
 [[nodiscard]] std::string lost_in_pdf(const ComparisonReport& report);
 
+/// Removes the reference at `path` if a comparison has made it; returns whether it did.
+bool remove_own_reference(const std::filesystem::path& path);
+
 /// Writes the reference as an EXR of 32-bit floats in the working space. A pooled one is the mean of all renders, has
 /// the standard error of each value as its layer "noise", and says which seeds it was made of.
 void write_reference(const std::filesystem::path& path, const Reference& reference, const ComparisonReport& report,

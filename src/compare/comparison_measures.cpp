@@ -186,6 +186,21 @@ void fill_ratios(PairReport& pair, const ComparisonReport& report, const Variant
     pair.b_reaches_a = time_to_reach(b, a, time);
 }
 
+/// Returns the standard errors of the mean colour of `pixels`, for an image like `like` whose values have `variance`.
+std::array<double, 3> mean_error_color(std::span<const float> variance, const ImageF& like, const PixelRect& pixels) {
+    std::array<double, 3> sums{};
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+        for (int x = pixels.x0; x < pixels.x1; ++x)
+            for (std::size_t c = 0; c < 3; ++c)
+                sums[c] +=
+                    static_cast<double>(variance[(static_cast<std::size_t>(y) * static_cast<std::size_t>(like.width) +
+                                                  static_cast<std::size_t>(x)) *
+                                                     static_cast<std::size_t>(like.channels) +
+                                                 c]);
+    for (double& sum : sums) sum = std::sqrt(sum) / static_cast<double>(pixels.area());
+    return sums;
+}
+
 /// Means, and errors if there is a reference.
 RegionReport measure_region(const NamedRegion& region, const ComparisonReport& report,
                             std::span<const FinishedImages> images, const std::optional<Reference>& reference,
@@ -202,12 +217,18 @@ RegionReport measure_region(const NamedRegion& region, const ComparisonReport& r
             variant.luminance.values.push_back(luminance(mean, weights));
             if (!reference) continue;
             const ImageF& expected = reference->of_round(seed);
-            variant.mean_error.values.push_back(
-                variant.luminance.values.back() / luminance(mean_color(expected, pixels), weights) - 1.0);
+            const double wanted = luminance(mean_color(expected, pixels), weights);
+            variant.mean_error.values.push_back(wanted > 0.0 ? variant.luminance.values.back() / wanted - 1.0
+                                                             : kUnknown);
             add(variant.errors,
                 compute_error_metrics(image, expected, {.region = pixels}, reference->variance_of_round(seed)));
         }
         if (reference && reference->report().noise_rel_mse > 0.0) drop_drowned(variant.errors);
+        if (reference && !reference->variance_of_round(0).empty())
+            variant.reference_error =
+                luminance(mean_error_color(reference->variance_of_round(0), images[v].of_seeds.front(), pixels),
+                          weights) /
+                luminance(mean_color(reference->of_round(0), pixels), weights);
         if (reference)
             variant.rel_mse_time = variant.errors.at(kRelMse).mean() * report.time_of(report.variants[v]).mean();
         result.variants.push_back(std::move(variant));
@@ -265,6 +286,11 @@ std::string drowned_errors(const ComparisonReport& report) {
                 return errors != variant.errors.end() && std::isnan(errors->second.mean());
             }))
             names.push_back(fmt::format("'{}'", variant.name));
+    for (const RegionReport& region : report.regions)
+        for (const RegionVariant& variant : region.variants)
+            if (const auto errors = variant.errors.find(kRelMse);
+                !region.found && errors != variant.errors.end() && std::isnan(errors->second.mean()))
+                names.push_back(fmt::format("'{}' in '{}'", variant.name, region.name));
     if (!(report.reference.noise_rel_mse > 0.0) || names.empty()) return "";
     return fmt::format(
         "the reference's noise, a relMSE of {:.3g}, hides errors of {}, which are not known: a reference with less "

@@ -177,8 +177,27 @@ ImageEstimate widened_estimate(const FinishedImages& images, int block_size) {
     return estimate;
 }
 
+namespace {
+
+/// Returns whether a test says something of two images.
+bool is_tested(const Variant& a, const FinishedImages& of_a, const Variant& b, const FinishedImages& of_b) {
+    return different_light(a, b).empty() && of_a.block_size && of_b.block_size;
+}
+
+std::size_t count_tested(std::span<const Variant> variants, std::span<const FinishedImages> images) {
+    std::size_t count = 0;
+    for (std::size_t a = 0; a < variants.size(); ++a)
+        for (std::size_t b = a + 1; b < variants.size(); ++b)
+            count += is_tested(variants[a], images[a], variants[b], images[b]) ? 1 : 0;
+    return count;
+}
+
+}  // namespace
+
 std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::span<const FinishedImages> images) {
     std::vector<PairReport> pairs;
+    const double tested = static_cast<double>(count_tested(variants, images));
+    const double significance = 1.0 - std::pow(1.0 - AgreementOptions{}.significance, 1.0 / std::max(tested, 1.0));
     for (std::size_t a = 0; a < variants.size(); ++a)
         for (std::size_t b = a + 1; b < variants.size(); ++b) {
             PairReport pair{.a = variants[a].name,
@@ -190,9 +209,10 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
                 if (!variants[v].cannot_find.empty())
                     pair.not_tested = fmt::format("'{}' cannot find all light", variants[v].name);
             if (!same_light) pair.not_tested = pair.different_light;
-            if (same_light && images[a].block_size && images[b].block_size) {
+            if (is_tested(variants[a], images[a], variants[b], images[b])) {
                 const int size = std::max(*images[a].block_size, *images[b].block_size);
                 pair.agreement_options.block_size = size;
+                pair.agreement_options.significance = significance;
                 // Of images that are still noisy the test of the whole says more than a fixed difference of means.
                 pair.agreement_options.mean_tolerance = std::numeric_limits<double>::infinity();
                 BlockAgreement tested = test_agreement(widened_estimate(images[a], size),
@@ -243,7 +263,7 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
             variance.pixels[p] += squared * member.estimate.variance.pixels[p];
     }
     report.text = fmt::format(
-        "Pooled from the variants after they were found to agree: each image is measured against the mean of all "
+        "Pooled from the variants, which no test told apart: each image is measured against the mean of all "
         "renders of other rounds, weighted by one over the variants' mean relative variance ({}).",
         weights_text(report.weights));
 

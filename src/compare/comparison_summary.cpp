@@ -38,19 +38,21 @@ void print(const PairReport& pair) {
         log_info("{} and {} are not tested: {}", pair.a, pair.b, pair.not_tested);
     else if (pair.agreement)
         log_info(
-            "{} and {} {}: {}; a difference of {} of the whole image, or {} of a block, is seen with probability "
+            "{} and {}, {}: {}; a difference of {} of the whole image, or {} of a block, is seen with probability "
             "{}",
-            pair.a, pair.b, pair.agreement->agree() ? "agree" : "DISAGREE", pair.agreement->str(),
+            pair.a, pair.b, pair.verdict() == "disagree" ? "DISAGREE" : pair.verdict(), pair.agreement->str(),
             human_percent(pair.smallest_of_image()), human_percent(pair.smallest_of_block()), kPower);
 }
 
 void print(const RegionReport& region) {
     for (const RegionVariant& variant : region.variants) {
         std::string line = fmt::format("{}, {}: mean {:.4g}", region.name, variant.name, fmt::join(variant.mean, " "));
-        if (!variant.errors.empty())
-            line += fmt::format(", relMSE {:.3g}, relMSE x time {:.3g}, mean off by {:.2f}% (deviation {:.2f}%)",
-                                variant.errors.at("relmse").mean(), variant.rel_mse_time,
-                                100.0 * variant.mean_error.mean(), 100.0 * variant.mean_error.deviation());
+        if (!variant.errors.empty() && !std::isnan(variant.errors.at("relmse").mean()))
+            line += fmt::format(", relMSE {:.3g}, relMSE x time {:.3g}", variant.errors.at("relmse").mean(),
+                                variant.rel_mse_time);
+        if (std::isfinite(variant.mean_error.mean()))
+            line += fmt::format(", mean off by {:.2f}% (deviation {:.2f}%)", 100.0 * variant.mean_error.mean(),
+                                100.0 * variant.mean_error.deviation());
         log_info("{}", line);
     }
 }

@@ -31,6 +31,9 @@ std::string light_text(SceneDesc scene) {
     scene.settings.clamp_indirect = 0.0f;
     scene.settings.robust_buckets = 0;
     scene.settings.brightest = 0;
+    scene.settings.accelerator = {};
+    scene.settings.film.filter = {};
+    scene.settings.film.filter_radius = {};
     // The text of a scene has the names of its files only.
     std::string text = dump_without_settings(scene) + requested_settings(scene.settings) + "\n";
     for (const std::filesystem::path& input : scene.inputs) text += input.string() + "\n";
@@ -153,6 +156,10 @@ std::string different_light(const Variant& a, const Variant& b) {
     if (of_a != of_b)
         return fmt::format("'{}' shows paths of {} to {} edges, '{}' those of {} to {}", a.name, of_a[0], of_a[1],
                            b.name, of_b[0], of_b[1]);
+    const FilmSettings& film_a = a.settings.film;
+    const FilmSettings& film_b = b.settings.film;
+    if (film_a.filter != film_b.filter || film_a.filter_radius != film_b.filter_radius)
+        return fmt::format("'{}' and '{}' have different pixel filters", a.name, b.name);
     if (a.light != b.light)
         return fmt::format(
             "the scenes of '{}' and '{}' differ, in their camera, moment, lights, environment or materials", a.name,

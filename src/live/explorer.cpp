@@ -82,7 +82,7 @@ std::string text_of_place(const CameraPlace& place) {
 
 Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given, const ThreadPool& threads,
                    TakeImage take)
-    : threads_(threads), given_(given), take_(std::move(take)) {
+    : threads_(threads), given_(given), take_(std::move(take)), is_taken_(static_cast<bool>(take_)) {
     // Images here are whole, and have no end.
     for (const char* const name : {"--crop", "--overscan", "--error"}) given_ = without(std::move(given_), name);
     SceneDesc scene = std::move(prepared.scene);
@@ -103,8 +103,11 @@ Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given
     distance_ = static_cast<double>(ahead > 0.05f * size ? ahead : std::max(0.5f * size, 1e-3f));
     const Vec3d eye = Vec3d(pose.position) + scene_.origin;
     own_camera_ = {.eye = eye, .target = eye + Vec3d(pose.forward) * distance_};
-    // A camera that is upright is turned around the vertical; any other keeps what it calls up.
-    if (std::abs(pose.right.y) > 1e-3f) own_camera_.up = Vec3d(pose.up);
+    // A camera that is upright is turned around the vertical; any other keeps what it calls up, as does one that looks
+    // straight up or down.
+    constexpr float kUpright = 1e-3f;
+    if (std::abs(pose.right.y) > kUpright || std::hypot(pose.forward.x, pose.forward.z) < kUpright)
+        own_camera_.up = Vec3d(pose.up);
 
     // One for both images, which stays while the camera moves.
     if (!scene_.settings.color.exposure) {
@@ -132,6 +135,9 @@ RenderSettings Explorer::settings_of(const ExplorerChoice& choice) const {
         settings = scene_.settings;
     }
     overrides.apply(settings);
+    // A strategy that the scene or the command line names is one of some integrators.
+    std::optional<Strategy>& strategy = settings.integrator.strategy;
+    if (strategy && !shows_strategy(settings.integrator.type, *strategy)) strategy.reset();
     if (settings.integrator.type == kAutoIntegrator) throw UsageError("'auto' is no integrator: choose one");
     (void)create_integrator(settings);
     if (const auto reason = replaced_ ? misses_alpha(settings.integrator.type, *replaced_) : std::nullopt)
@@ -278,10 +284,10 @@ void Explorer::hand_over(Side& side, const OutputFrame& frame) {
     constexpr std::chrono::milliseconds kBetweenImages(500);
     const bool is_last = side.rendering->state().spp_done >= kMostExplorerSpp;
     const Clock::time_point now = Clock::now();
-    if (!take_ || side.shrink != 1 || (!is_last && now - side.taken < kBetweenImages)) return;
+    if (!is_taken_ || side.shrink != 1 || (!is_last && now - side.taken < kBetweenImages)) return;
     side.taken = now;
     const char* const place = &side == &sides_[0] ? "left" : "right";
-    take_(fmt::format("{}, {}: {}", scene_.name, place, frame.integrator), frame);
+    is_taken_ = take_(fmt::format("{}, {}: {}", scene_.name, place, frame.integrator), frame);
 }
 
 void Explorer::count_news() {

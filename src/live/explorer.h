@@ -49,7 +49,7 @@ struct ExplorerSide {
 class Explorer {
   public:
     /// Gets images of full size under a name of the scene, side and integrator, twice a second of each side.
-    using TakeImage = std::function<void(const std::string& name, const OutputFrame& frame)>;
+    using TakeImage = std::function<bool(const std::string& name, const OutputFrame& frame)>;
 
     /// Compiles the scene. `given` are the options of the command line, which commands to copy repeat. `take`, which
     /// may be empty, is called by `run`, which then renders also while nobody looks. Throws what `compile_world` does,
@@ -109,7 +109,7 @@ class Explorer {
     };
 
     [[nodiscard]] RenderSettings settings_of(const ExplorerChoice& choice) const;
-    [[nodiscard]] bool is_watched() const { return take_ || Clock::now() - looked_at_.load() < kWatchedFor; }
+    [[nodiscard]] bool is_watched() const { return is_taken_ || Clock::now() - looked_at_.load() < kWatchedFor; }
     /// Returns true while a drag goes on; one whose end is never told, as its page is closed, ends after a second.
     [[nodiscard]] bool does_camera_move() const { return Clock::now() - moved_at_.load() < std::chrono::seconds(1); }
     void fulfil(Wishes wishes);
@@ -128,6 +128,7 @@ class Explorer {
     ColorConfig colors_ = ColorConfig::from_environment();
     std::vector<GivenOption> given_;
     TakeImage take_;
+    std::atomic<bool> is_taken_ = false;   ///< `take_` still shows images
     SceneDesc scene_;                      ///< cameras, settings and names; the rest is in the world
     std::optional<std::string> replaced_;  ///< the name of a material that is a shadow catcher or a holdout, if any is
     double distance_ = 1.0;                ///< from the scene's own camera to what it turns around, metres

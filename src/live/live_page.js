@@ -285,6 +285,7 @@ function showState(status) {
   const phase = PHASES[status.phase] ?? status.phase;
   const share = status.phase === "render" && known(status.fraction) ? percent(status.fraction) : null;
   byId("state").textContent = share ? `${phase}, ${share}` : phase;
+  byId("state").classList.remove("alarm");
   byId("title").textContent = status.title;
   document.title = `${share ? `${share} ` : ""}${status.title}: Etendue`;
 }
@@ -304,13 +305,14 @@ function show(status) {
   if (status.images[0]) offerViews(status.images[0]);
 }
 
-function showEnd() {
-  state.ended = true;
-  for (const id of ["stop", "preview"]) byId(id).disabled = true;
+/** Says that the program does not answer: it has ended, if it had come to an end before. */
+function showNoAnswer() {
   const phase = state.status?.phase;
-  const known = ENDS.includes(phase);
-  byId("state").textContent = known ? `${PHASES[phase]}; the program has ended` : "the program has ended";
-  byId("state").classList.toggle("alarm", !known && state.status?.kind !== "explore");
+  state.ended = ENDS.includes(phase);
+  for (const id of ["stop", "preview"]) byId(id).disabled = true;
+  byId("state").textContent = state.ended ? `${PHASES[phase]}; the program has ended`
+    : "no answer: the program has ended, or cannot be reached";
+  byId("state").classList.toggle("alarm", !state.ended);
 }
 
 byId("stop").addEventListener("click", async () => {
@@ -511,14 +513,16 @@ async function follow() {
       // Of a camera that moves, the program answers when there is another image.
       const newest = state.status?.kind === "explore" ? `?after=${state.status.serial}` : "";
       show(await (await ask(`status${newest}`)).json());
-      await loadAll();
       state.failures = 0;
+      // Pictures may not be there yet, or be too large for the browser: that says nothing of the program.
+      await loadAll().catch((error) => { if (error.status !== 404) tell(error.message); });
       if (state.status.kind !== "explore") await pause(POLL);
     } catch (error) {
       if (error.status === 404) continue;
+      // A tunnel may be down for a while: it is asked again, less and less often.
       state.failures += 1;
-      if (state.failures > 2) showEnd();
-      await pause(200);
+      if (state.failures > 2) showNoAnswer();
+      await pause(Math.min(200 * state.failures, 5000));
     }
   }
 }

@@ -46,6 +46,9 @@ class TevViewer final : public RenderWatcher {
     /// Sends `frame` as the image `name`, unless a newer one of that name comes before it is sent.
     void show(const std::string& name, const OutputFrame& frame);
 
+    /// Returns whether there was no viewer, or it has gone: it gets no more images.
+    [[nodiscard]] bool is_lost() const { return is_lost_; }
+
   private:
     using Clock = std::chrono::steady_clock;
 

@@ -47,13 +47,24 @@ pid_t start(const std::vector<std::string>& words, const Pipe& out, const Pipe& 
     return pid;
 }
 
-/// Reads both until both have ended; at once, so that the program never waits for one while we wait for the other.
-void read_all(const Pipe& out, const Pipe& err, CommandResult& result) {
+/// Returns whether `pid` has ended, and what it ended with.
+bool has_ended(pid_t pid, int& status) {
+    return ::waitpid(pid, &status, WNOHANG) == pid;
+}
+
+/// Reads both at once, so that the program never waits for one while we wait for the other, until both or the program
+/// `pid` have ended: what it has started may keep them open. Returns what the program ended with.
+int read_all(const Pipe& out, const Pipe& err, pid_t pid, CommandResult& result) {
+    constexpr int kMillisecondsBetweenLooks = 100;
+    int status = 0;
+    bool is_over = false;
     std::array<pollfd, 2> open{pollfd{out.reader.get(), POLLIN, 0}, pollfd{err.reader.get(), POLLIN, 0}};
     const std::array<std::string*, 2> texts{&result.out, &result.err};
     std::array<char, 4096> buffer{};
     while (open[0].fd >= 0 || open[1].fd >= 0) {
-        if (::poll(open.data(), open.size(), -1) < 0 && errno != EINTR) break;
+        is_over = is_over || has_ended(pid, status);
+        const int ready = ::poll(open.data(), open.size(), is_over ? 0 : kMillisecondsBetweenLooks);
+        if ((ready < 0 && errno != EINTR) || (ready == 0 && is_over)) break;
         for (std::size_t i = 0; i < open.size(); ++i) {
             if (open[i].fd < 0 || open[i].revents == 0) continue;
             const ssize_t count = ::read(open[i].fd, buffer.data(), buffer.size());
@@ -62,6 +73,9 @@ void read_all(const Pipe& out, const Pipe& err, CommandResult& result) {
             if (count == 0 || (count < 0 && errno != EINTR)) open[i].fd = -1;
         }
     }
+    while (!is_over && ::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
 }
 
 }  // namespace
@@ -73,10 +87,7 @@ CommandResult run_command(const std::vector<std::string>& words) {
     out.writer.close();
     err.writer.close();
     CommandResult result;
-    read_all(out, err, result);
-    int status = 0;
-    while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = read_all(out, err, pid, result);
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return result;
 }

@@ -78,6 +78,7 @@ Json test_of(const PairReport& pair) {
     const AgreementOptions& options = pair.agreement_options;
     const BlockDifference& worst = agreement.worst;
     return {{"agree", agreement.agree()},
+            {"verdict", pair.verdict()},
             {"blocks_agree", agreement.blocks_agree},
             {"means_agree", agreement.means_agree},
             {"block_size", options.block_size},
@@ -131,6 +132,7 @@ Json to_json(const RegionReport& region) {
                             {"luminance", spread(variant.luminance)},
                             {"mean_error", variant.mean_error.mean()},
                             {"mean_error_deviation", variant.mean_error.deviation()},
+                            {"mean_error_of_reference", variant.reference_error},
                             {"errors", object(variant.errors, spread)},
                             {"relmse_time", variant.rel_mse_time}});
     return {

@@ -49,6 +49,13 @@ double PairReport::smallest_of_block() const {
     return smallest_difference(agreement->block_error, agreement_options.significance, agreement->tests);
 }
 
+std::string_view PairReport::verdict() const {
+    constexpr double kWeak = 0.1;  // larger differences of whole images are not worth the word "agree"
+    if (!agreement || !not_tested.empty()) return "not tested";
+    if (!agreement->agree()) return "disagree";
+    return smallest_of_image() > kWeak ? "no difference seen" : "agree";
+}
+
 std::vector<UntestedVariant> ComparisonReport::untested() const {
     std::vector<UntestedVariant> result;
     for (const VariantReport& variant : variants) {

@@ -104,6 +104,9 @@ struct PairReport {
     /// a block of median noise; unknown without a test.
     [[nodiscard]] double smallest_of_image() const;
     [[nodiscard]] double smallest_of_block() const;
+    /// Returns the outcome of the test in a word: "agree", "disagree", or "no difference seen" if it would have seen
+    /// only a large one, or "not tested".
+    [[nodiscard]] std::string_view verdict() const;
 };
 
 /// A variant that no test of agreement says anything of, and why.
@@ -118,6 +121,8 @@ struct RegionVariant {
     std::array<double, 3> mean{};
     SeedValues luminance{};   ///< mean of the region: of renders alone, so that variants are independent
     SeedValues mean_error{};  ///< error of `luminance` against the reference, relative
+    /// Holds the relative standard error of the reference's mean of the region.
+    double reference_error = kUnknown;
     ErrorsByMetric errors{};
     double rel_mse_time = kUnknown;  ///< relMSE times the seconds by which variants are compared
 };

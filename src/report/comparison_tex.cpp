@@ -123,7 +123,7 @@ std::vector<std::vector<std::string>> pair_rows(const ComparisonReport& report) 
         }
         row.push_back(!pair.not_tested.empty() || !pair.agreement
                           ? "not tested"
-                          : fmt::format("{}, $p = {}$, $\\geq {}\\,\\%$", pair.agreement->agree() ? "yes" : "no",
+                          : fmt::format("{}, $p = {}$, $\\geq {}\\,\\%$", pair.verdict(),
                                         tex_formula(pair.agreement->p_value, 2),
                                         tex_formula(100.0 * pair.smallest_of_image(), 2)));
         rows.push_back(std::move(row));

@@ -233,6 +233,7 @@ std::string to_json(const ProfileReport& report) {
                     {"path", report.scene_path},
                     {"width", report.width},
                     {"height", report.height},
+                    {"crop", report.crop ? window(*report.crop) : Json()},
                     {"max_depth", report.max_depth},
                     {"seed", report.seed},
                     {"settings", report.settings}}},

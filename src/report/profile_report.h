@@ -159,6 +159,7 @@ struct ProfileReport {
     std::string scene_path{};
     int width = 0;
     int height = 0;
+    std::optional<PixelRect> crop{};  ///< pixels that are rendered, if they are not all
     int max_depth = 0;
     std::uint32_t seed = 0;
     std::map<std::string, std::string> settings{};  ///< other settings that decide how much work a sample is, by name

@@ -77,7 +77,7 @@ ImageResult run_job(const ImageJob& job, SceneRenderRequest request, const Threa
     request.overrides = overrides_of(job, std::move(request.overrides));
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const OutputPaths paths = OutputPaths::beside(job.output, request.overrides.png);
-    if (!request.force && !is_partial(job.output) &&
+    if (!request.force && !is_partial(job.output) && has_strategies_image(request.strategies, paths) &&
         is_up_to_date(paths, job.scene, prepared.scene, request.overrides.depth)) {
         // Of a render that was stopped after its image was complete.
         CheckpointFiles(job.output).remove();

@@ -183,7 +183,7 @@ class SceneRender {
         return state;
     }
 
-    /// A checkpoint, or a part that was rendered before.
+    /// Returns what has most samples: a checkpoint, or a part or sums that were rendered before.
     [[nodiscard]] std::optional<Checkpoint> read_kept() const {
         if (!request_.resume) return std::nullopt;
         enter("resume");
@@ -191,9 +191,11 @@ class SceneRender {
         const CheckpointFiles::Expected expected =
             is_partial(output_) ? expected_part(identity_, options_, first_sample(), has_second_film)
                                 : expected_image(identity_, options_, has_second_film);
-        std::optional<Checkpoint> kept;
-        if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
-        if (!kept) kept = checkpoints_.read(expected, request_.quiet);
+        std::optional<Checkpoint> kept = checkpoints_.read(expected, request_.quiet);
+        if (is_partial(output_) && !request_.force) {
+            std::optional<Checkpoint> part = read_part(output_, expected, request_.quiet);
+            if (part && (!kept || part->state.spp_done >= kept->state.spp_done)) kept = std::move(part);
+        }
         if (!kept && !is_partial(output_))
             kept = read_sums(sums_path(output_), expected, static_cast<int>(options_.spp), request_.quiet);
         return kept;

@@ -82,6 +82,15 @@ std::string strategy_label(const Strategy& strategy) {
     return strategy == kMerges ? "merges" : fmt::format("({},{})", strategy.s, strategy.t);
 }
 
+bool has_strategies_image(const StrategiesRequest& request, const OutputPaths& image) {
+    if (request.output.empty()) return true;
+    std::error_code pyramid_is_missing;
+    std::error_code image_is_missing;
+    const auto of_pyramid = std::filesystem::last_write_time(request.output, pyramid_is_missing);
+    const auto of_image = std::filesystem::last_write_time(image.exr, image_is_missing);
+    return !pyramid_is_missing && !image_is_missing && of_pyramid >= of_image;
+}
+
 void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
                               const RenderSettings& settings, const RenderOptions& options, PixelDepth depth) {
     require_other_files(image, OutputPaths::beside(request.output));
@@ -111,7 +120,11 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
     std::vector<StrategyImage> images =
         render_strategies(world, one, wanted, options, threads, interrupt_requested(),
                           [&](const RenderProgress& progress) { display.update(progress); });
-    if (images.size() < wanted.size()) return;
+    if (images.size() < wanted.size()) {
+        log_warning("note: interrupted before all strategies were rendered: {} is not written",
+                    request.output.string());
+        return;
+    }
     if (is_to_be_converted(frame)) {
         // In place, since there is no room for another of each.
         for (StrategyImage& image : images) convert_space(image.rgba, frame.working_space, frame.output_space, colors);

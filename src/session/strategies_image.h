@@ -25,6 +25,9 @@ struct StrategiesRequest {
     bool weighted = true;
 };
 
+/// Returns whether nothing is asked for, or the pyramid was written after the image whose files are `image`.
+[[nodiscard]] bool has_strategies_image(const StrategiesRequest& request, const OutputPaths& image);
+
 /// Before anything is rendered: throws UsageError if the pyramid would be written over the image, whose files are
 /// `image`, or would show nothing, and std::runtime_error if it needs more memory than the machine has.
 void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,

@@ -125,6 +125,38 @@ TEST_F(Compare, TheNextComparisonTakesAPooledReference) {
     EXPECT_NE(notes().find("some of the same seeds"), std::string::npos) << notes();
 }
 
+TEST_F(Compare, KeepsImagesThatItHasNotMade) {
+    write_grey("report/reference.exr");
+    const Names one{"--spp", "1", "--seeds", "1", "--integrators", "path", "--strategies-depth", "0"};
+    ASSERT_EQ(compare(one).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work_ / "report/reference.exr"));
+    Names kept = one;
+    kept.emplace_back("--keep-images");
+    ASSERT_EQ(compare(kept).exit_code, 0);
+    kept.insert(kept.end(), {"--reference", "report/images/path-seed0.exr"});
+    EXPECT_EQ(compare(kept).exit_code, 2);
+    EXPECT_TRUE(fs::exists(work_ / "report/images/path-seed0.exr"));
+}
+
+TEST_F(Compare, OverscanIsPartOfTheWindow) {
+    const Names wide{"--size", "24x24", "--overscan", "4", "--spp", "2", "--seeds", "3", "--strategies-depth", "0"};
+    ASSERT_EQ(compare(wide).exit_code, 0);
+    EXPECT_EQ(report()["scene"]["crop"], (json{-4, -4, 28, 28}));
+    ASSERT_TRUE(fs::exists(work_ / "report/reference.exr")) << notes();
+    fs::rename(work_ / "report/reference.exr", work_ / "wide.exr");
+    EXPECT_EQ(compare({"--size", "24x24", "--spp", "2", "--seeds", "1", "--integrators", "path", "--reference",
+                       "wide.exr", "--strategies-depth", "0"})
+                  .exit_code,
+              0);
+}
+
+TEST_F(Compare, AcceleratorsShowTheSameLight) {
+    const ProgramResult result = compare({"--spp", "2", "--seeds", "3", "--variant", "embree: ", "--variant",
+                                          "bvh: --accelerator bvh", "--strategies-depth", "0"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(report()["pairs"][0]["agreement"].is_object()) << report()["pairs"][0].dump();
+}
+
 TEST_F(Compare, RefusesWhatWouldChangeNothing) {
     for (const Names& options :
          {Names{"--aov", "depth"}, Names{"--deep"}, Names{"--owner", "x"}, Names{"--exr-space", "ACEScg"},

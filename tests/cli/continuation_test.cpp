@@ -395,6 +395,33 @@ TEST_F(Continuation, GoesOnWithASceneThatWasMoved) {
     EXPECT_NE(result.err.find("going on after"), std::string::npos) << result.err;
 }
 
+TEST_F(Continuation, APartThatGrowsGoesOnFromItsCheckpoint) {
+    ASSERT_EQ(run(render(8, "a.partial", {"--samples", "0:8", "--quiet"})).exit_code, 0);
+    const Arguments longer = render(4'000'000, "a.partial", {"--samples", "0:4000000", "--resume"});
+    ASSERT_EQ(interrupt(longer, 300).exit_code, 130);
+    const ProgramResult again = interrupt(longer, 300);
+    EXPECT_NE(again.err.find("going on after "), std::string::npos) << again.err;
+    EXPECT_EQ(again.err.find("going on after 8 "), std::string::npos) << again.err;
+}
+
+// Tiles are merged to a part, and that to an image: as if they had been merged to the image.
+TEST_F(Continuation, MergingInTwoStepsDescribesTheImage) {
+    for (const auto& [name, crop] : {std::pair{"left", "0,0,13,30"}, {"right", "13,0,40,30"}, {"part", "0,0,13,20"}})
+        ASSERT_EQ(run(render(4, fmt::format("{}.partial", name), {"--crop", crop, "--quiet"})).exit_code, 0);
+    ASSERT_EQ(run({"merge", "left.partial", "right.partial", "-o", "both.partial"}).exit_code, 0);
+    ASSERT_EQ(run({"merge", "both.partial", "-o", "two.exr"}).exit_code, 0);
+    ASSERT_EQ(run({"merge", "left.partial", "right.partial", "-o", "one.exr"}).exit_code, 0);
+    const json two = json::parse(read_file(work_ / "two.json"));
+    const json one = json::parse(read_file(work_ / "one.json"));
+    EXPECT_EQ(two["settings_hash"], one["settings_hash"]);
+    EXPECT_EQ(two["complete"], true);
+    EXPECT_EQ(two["settings"], one["settings"]);
+    ASSERT_EQ(run(render(4, "below.partial", {"--crop", "0,20,13,30", "--quiet"})).exit_code, 0);
+    ASSERT_EQ(run({"merge", "part.partial", "below.partial", "-o", "column.partial"}).exit_code, 0);
+    ASSERT_EQ(run({"merge", "column.partial", "-o", "column.exr"}).exit_code, 0);
+    EXPECT_EQ(json::parse(read_file(work_ / "column.json"))["complete"], false) << "pixels are missing";
+}
+
 TEST_F(Continuation, FewerSamplesThanThereAreEndWithWholePasses) {
     ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
     const ProgramResult result = run(render(1, "a.exr", {"--resume"}));

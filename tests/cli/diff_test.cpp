@@ -293,6 +293,9 @@ TEST_F(Diff, UsageErrorsEndWithTwo) {
                                                        {a, a, "--crop", "4,4,4,4"},
                                                        {a, a, "--exposures", "3:1"},
                                                        {a, a, "--ppd", "0"},
+                                                       {a, a, "--metric", "mse", "--ppd", "30"},
+                                                       {a, a, "--metric", "mse", "--exposures", "-1:1"},
+                                                       {a, a, "--map-max", "3"},
                                                        {a, a, a}};
     for (const auto& arguments : bad) {
         const ProgramResult result = diff(arguments);

@@ -139,6 +139,7 @@ TEST(Explorer, HandsWholeImagesOverThoughNobodyLooks) {
     const AtWork work([&](const std::string& name, const OutputFrame& frame) {
         const std::scoped_lock lock(mutex);
         sizes[name] = {frame.pixels.width, frame.pixels.height};
+        return true;
     });
     const auto count = [&] {
         const std::scoped_lock lock(mutex);
@@ -150,6 +151,17 @@ TEST(Explorer, HandsWholeImagesOverThoughNobodyLooks) {
     ASSERT_FALSE(sizes.empty());
     EXPECT_TRUE(sizes.begin()->first.ends_with(", left: path")) << sizes.begin()->first;
     EXPECT_EQ(sizes.begin()->second, std::pair(48, 36));
+}
+
+TEST(Explorer, ShowsAStrategyBesideWhatHasNone) {
+    TestFolder folder;
+    write_scene(folder.path());
+    SettingsOverrides overrides = small_image();
+    overrides.give("--integrator", "bdpt");
+    overrides.give("--strategy", "1,2");
+    const ThreadPool threads(1);
+    Explorer explorer(prepare_scene(folder.path(), overrides), {{"", folder.path().string()}}, threads);
+    EXPECT_EQ(explorer.sides()[1].choice.integrator, "path");
 }
 
 TEST(Explorer, MovesACameraFinelyFarFromTheOrigin) {

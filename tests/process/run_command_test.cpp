@@ -2,6 +2,8 @@
 
 #include "core/error.h"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 namespace etendue::test {
@@ -22,6 +24,14 @@ TEST(RunCommand, ReadsMuchOfBothOutputs) {
         run_command({"sh", "-c", "head -c 1000000 /dev/zero >&2; head -c 1500000 /dev/zero; echo end"});
     EXPECT_EQ(result.out.size(), 1500004u);
     EXPECT_EQ(result.err.size(), 1000000u);
+}
+
+TEST(RunCommand, DoesNotWaitForWhatTheProgramHasLeftBehind) {
+    const auto start = std::chrono::steady_clock::now();
+    const CommandResult result = run_command({"sh", "-c", "sleep 30 & echo left"});
+    EXPECT_EQ(result.out, "left\n");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15));
 }
 
 TEST(RunCommand, SaysThatThereIsNoSuchProgram) {
