@@ -196,8 +196,8 @@ std::size_t count_tested(std::span<const Variant> variants, std::span<const Fini
 
 std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::span<const FinishedImages> images) {
     std::vector<PairReport> pairs;
-    const double tested = static_cast<double>(count_tested(variants, images));
-    const double significance = 1.0 - std::pow(1.0 - AgreementOptions{}.significance, 1.0 / std::max(tested, 1.0));
+    const double count = static_cast<double>(count_tested(variants, images));
+    const double significance = 1.0 - std::pow(1.0 - AgreementOptions{}.significance, 1.0 / std::max(count, 1.0));
     for (std::size_t a = 0; a < variants.size(); ++a)
         for (std::size_t b = a + 1; b < variants.size(); ++b) {
             PairReport pair{.a = variants[a].name,

@@ -55,6 +55,7 @@ TEST(ProfileJson, HoldsWhatWasMeasured) {
                                    {"path", "scenes/box"},
                                    {"width", 64},
                                    {"height", 32},
+                                   {"crop", nullptr},
                                    {"max_depth", 12},
                                    {"seed", 7},
                                    {"settings", {{"film", "film: filter box"}, {"sampler", "sobol"}}}}));

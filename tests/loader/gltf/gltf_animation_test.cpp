@@ -76,12 +76,13 @@ TEST(Animation, EachFrameReachesItsOwnKey) {
     std::vector<float> places;
     for (int frame = 0; frame < kFrames; ++frame) {
         times.push_back(static_cast<float>(static_cast<double>(frame) / 24.0));
-        for (const float number : {static_cast<float>(frame), 0.0f, 0.0f}) places.push_back(number);
+        for (const float number : {static_cast<float>(frame) / kFrames, 0.0f, 0.0f}) places.push_back(number);
     }
     GltfBuilder builder = animated("translation", places, 3, "STEP");
     builder.json["animations"][0]["samplers"][0]["input"] = builder.floats(times, 1);
     for (int frame = 0; frame < kFrames; ++frame)
-        ASSERT_EQ(moved(builder, static_cast<double>(frame) / 24.0, Vec3f(0.0f)).x, static_cast<float>(frame));
+        ASSERT_EQ(moved(builder, static_cast<double>(frame) / 24.0, Vec3f(0.0f)).x,
+                  static_cast<float>(frame) / kFrames);
 }
 
 TEST(Animation, TheLaterOfTwoKeysAtOneTimeCounts) {

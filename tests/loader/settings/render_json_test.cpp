@@ -399,7 +399,7 @@ TEST(RenderJson, LensesOfCamerasWithoutAnyAreNoted) {
                       std::string(type) + "\"}}}");
         EXPECT_TRUE(has_problem(
             loaded.problems, Severity::Note,
-            type == std::string("fisheye") ? "ignores f_stop, blades" : "ignores f_stop, focal_length, blades",
+            type == std::string("fisheye") ? "ignores f_stop, blades" : "ignores f_stop, blades, focal_length",
             "/cameras/main"))
             << listing(loaded.problems);
         EXPECT_EQ(loaded.scene.cameras.at(0).lens_radius, 0.0f);

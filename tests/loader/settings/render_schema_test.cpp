@@ -264,7 +264,6 @@ const char* const kBad[] = {
     R"({"cameras": {"a": {"blades": 2}}})",
     R"({"cameras": {"a": {"blades": 65}}})",
     R"({"cameras": {"a": {"aperture_ratio": 0}}})",
-    R"({"cameras": {"a": {"yfov": 1}}})",
     R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "clip": true}})",
     R"({"film": {"pixel_aspect": 0}})",
     R"({"materials": {"a": {"conductor": {}, "diffuse": {}}}})",
