@@ -74,7 +74,8 @@ class Image(unittest.TestCase):
         render = fake.scene().render
         self.assertEqual(scene_settings.shutter(render, "CENTER"), (-0.25, 0.25))
         self.assertEqual(scene_settings.shutter(render, "START"), (0.0, 0.5))
-        self.assertEqual(written(moving=(0.0, 0.02)).document["shutter"], [0.0, 0.02])
+        document = written(moving=(0.0, 0.02)).document
+        self.assertEqual((document["shutter"], document["fps"]), ([0.0, 0.02], 25.0))
 
 
 class Lamps(unittest.TestCase):

@@ -2,15 +2,18 @@
 
 Called with the program as its last argument, it also holds the entries of materials against the program's schema."""
 
+import copy
 import math
 import os
+import struct
 import sys
 import unittest
+import zlib
 from pathlib import Path
 
 import fake_blender as fake
-from etendue import glb_materials, materials, nodes, overlooked, program, scene_settings, volumes
-from etendue.written import Written
+from etendue import glb_materials, materials, nodes, overlooked, program, scene_settings, textures, volumes
+from etendue.written import Texture, Written
 
 try:
     import numpy
@@ -164,10 +167,10 @@ class Worlds(unittest.TestCase):
 
 
 class Materials(unittest.TestCase):
-    def material(self, shader, closed=True, whole=False, blend="HASHED", **ends):
+    def material(self, shader, closed=True, whole=False, blend="HASHED", version=(3, 4, 0), **ends):
         result, item = Written(), fake.material("M", shader, **ends)
         item.blend_method = blend
-        return scene_settings.material(item, closed, result, whole), result
+        return scene_settings.material(item, closed, result, whole, version=version), result
 
     def test_nothing_becomes_white_metal(self):
         black, matte = {"diffuse": {"albedo": [0.0] * 3}}, {"diffuse": {"albedo": [0.5] * 3}}
@@ -197,7 +200,7 @@ class Materials(unittest.TestCase):
 
     def test_images_of_shaders_that_the_exporter_does_not_know_come_along(self):
         found, result = self.material(diffuse(fake.texture(fake.image("bark"))))
-        self.assertEqual((found, result.textures["M"][0].name, result.notes),
+        self.assertEqual((found, result.textures["M"].image.name, result.notes),
                          ({"base_color": [1.0] * 3, "metallic": 0.0, "roughness": 1.0, "specular": 0.0}, "bark", []))
         toon, result = self.material(fake.Node("BSDF_TOON", {"Color": fake.texture(fake.image("bark"))}))
         self.assertEqual((toon, set(result.textures)), (found, {"M"}))
@@ -224,7 +227,8 @@ class Materials(unittest.TestCase):
         self.assertEqual(self.material(fake.mix(0.25, diffuse(), transparent()))[1].alphas, {"M": 0.75})
         leaves = fake.image("leaves")
         cut = fake.mix((fake.texture(leaves), "Alpha"), transparent(), diffuse(fake.texture(leaves)))
-        self.assertEqual((self.material(cut)[1].textures, self.material(cut)[1].notes), ({"M": (leaves, True)}, []))
+        result = self.material(cut)[1]
+        self.assertEqual((result.textures["M"].image, result.textures["M"].with_alpha, result.notes), (leaves, True, []))
         other = fake.mix(fake.Node("TEX_NOISE"), transparent(), diffuse())
         self.assertIn("nothing is transparent", self.material(other)[1].notes[0])
 
@@ -238,11 +242,115 @@ class Materials(unittest.TestCase):
         self.assertEqual(glow["emission"], {"color": [0.8, 0.2, 0.1], "strength": 4.0})
         self.assertEqual(glow["diffuse"], {"albedo": [0.5] * 3})
 
+    def test_the_branch_that_a_mix_has_chosen_is_read_whole(self):
+        """The exporter takes the first Principled BSDF and any Emission, whatever is mixed."""
+        first = fake.principled(Base_Color=fake.texture(fake.image()), Roughness=0.1)
+        second = fake.principled(Base_Color=RED, Roughness=0.7, Metallic=1.0, Specular=0.5)
+        first.name, second.name = "First", "Second"
+        found, result = self.material(fake.mix(1.0, first, second))
+        self.assertEqual(found, {"base_color": [0.8, 0.2, 0.1], "roughness": 0.7, "metallic": 1.0, "transmission": 0.0,
+                                 "specular": 1.0})
+        self.assertEqual((result.bare, result.dark, result.notes), ({"M"}, {"M"}, []))
+        found, result = self.material(fake.mix(0.0, first, second))
+        self.assertEqual((found, result.bare, result.dark, result.notes), ({}, set(), set(), []))
+        for chosen, name in ((diffuse(RED), "diffuse"), (transparent(), "diffuse"), (emission(RED), "emission")):
+            found, result = self.material(fake.mix(1.0, first, chosen))
+            self.assertIn(name, found)
+            self.assertEqual(result.bare, {"M"})
+
+    def test_the_light_of_a_branch_that_is_not_shown_goes(self):
+        shader = fake.principled(Base_Color=RED, Emission=RED, Emission_Strength=2.0)
+        found, result = self.material(fake.mix(0.0, shader, emission(GREY, 5.0)))
+        self.assertEqual(found, {"emission": {"color": [0.8, 0.2, 0.1], "strength": 2.0}})
+        self.assertEqual((result.bare, result.dark), (set(), {"M"}))
+        lit = emission(fake.texture(fake.image()), 4.0)
+        found, result = self.material(fake.mix(0.25, fake.principled(Base_Color=RED), lit))
+        self.assertEqual((found, result.bare, result.dark), ({"emissive": [1.0] * 3, "emissive_strength": 1.0}, set(), set()))
+        both = fake.Node("ADD_SHADER", {"Shader": shader, "Shader__2": lit})
+        found, result = self.material(both)
+        self.assertEqual((found, result.dark), ({}, set()))
+        self.assertIn("beside the light of 'EMISSION'", result.notes[0])
+
+    def test_images_that_are_lost_with_the_shader_of_the_exporter_are_said(self):
+        picture = fake.image(space="Non-Color")
+        shader = fake.principled(Roughness=fake.texture(picture), Alpha=(fake.texture(picture), "Alpha"), Emission=fake.texture(picture),
+                                 Normal=fake.Node("NORMAL_MAP", {"Color": fake.texture(picture)}), Clearcoat=fake.texture(picture))
+        shader.name = "Second"
+        found, result = self.material(fake.mix(1.0, fake.principled(), shader))
+        self.assertEqual((found["roughness"], found["clearcoat"]), (0.5, 0.0))
+        for lost in ("'Roughness'", "'Alpha'", "'Normal'", "'Clearcoat'", "the light"):
+            self.assertTrue([text for text in result.notes if lost in text], lost)
+
+    def test_exporters_since_blender_4_see_what_groups_have(self):
+        picture = fake.image(space="Non-Color")
+        shader = fake.group(fake.principled(Base_Color=GREY, Roughness=fake.texture(picture), Metallic=fake.Node("GROUP_INPUT", outputs=("Metal",))),
+                            Metal=0.25)
+        found, result = self.material(shader, version=(4, 3, 0))
+        self.assertEqual((found, result.bare, result.notes), ({"metallic": 0.25}, set(), []))
+        found, result = self.material(shader)
+        self.assertEqual((found["roughness"], len(result.notes)), (0.5, 1))
+
+    def test_alpha_in_groups_is_that_of_the_image_or_said(self):
+        leaves = fake.image("leaves")
+        for other, alpha, said in ((leaves, True, 0), (fake.image("mask"), False, 1)):
+            shader = fake.group(fake.principled(Base_Color=fake.texture(leaves), Alpha=(fake.texture(other, name="mask"), "Alpha")))
+            result = self.material(shader)[1]
+            self.assertEqual((result.textures["M"].with_alpha, len(result.notes)), (alpha, said))
+
+    def test_images_of_other_spaces_are_said(self):
+        def notes(shader):
+            return self.material(shader)[1].notes
+
+        for space, said in (("sRGB", 0), ("Non-Color", 1), ("ACEScg", 1)):
+            self.assertEqual(len(notes(fake.principled(Base_Color=fake.texture(fake.image(space=space))))), said)
+        for space, said in (("sRGB", 1), ("Non-Color", 0), ("Linear", 0)):
+            self.assertEqual(len(notes(fake.principled(Roughness=fake.texture(fake.image(space=space))))), said)
+        # The add-on itself writes these as sRGB.
+        for space, said in (("sRGB", 0), ("Non-Color", 0), ("ACEScg", 1)):
+            self.assertEqual(len(notes(diffuse(fake.texture(fake.image(space=space))))), said)
+
+    def test_bodies_scatter_forward_as_far_as_the_program_goes(self):
+        wax = fake.Node("SUBSURFACE_SCATTERING", {"Color": RED, "Scale": 0.1, "Radius": (1.0, 0.5, 0.2), "Anisotropy": 1.0})
+        self.assertEqual(self.material(wax)[0]["subsurface"]["anisotropy"], 0.999)
+
+    def test_images_lie_as_their_nodes_say(self):
+        uv_map = fake.Node("UVMAP", outputs=("UV",), uv_map="Second")
+        shader = diffuse(fake.texture(fake.image(), fake.mapping(uv_map, place=(0.1, 0.2, 0.0), turn=(0.0, 0.0, 0.5), scale=(2.0, 3.0, 1.0)),
+                                      extension="EXTEND", interpolation="Closest"))
+        found, result = self.material(shader)[1].textures["M"], self.material(shader)[1]
+        self.assertEqual((found.uv_map, found.sampler), ("Second", {"wrapS": 33071, "wrapT": 33071, "magFilter": 9728, "minFilter": 9984}))
+        self.assertEqual(result.notes, [])
+
+    def test_mappings_are_those_of_blender(self):
+        def moved(place, turn, scale, u, v):
+            """Where a Mapping of points leads."""
+            u, v = u * scale[0], v * scale[1]
+            return (place[0] + math.cos(turn) * u - math.sin(turn) * v, place[1] + math.sin(turn) * u + math.cos(turn) * v)
+
+        for kind, place, turn, scale in (("POINT", (0.1, 0.2), 0.5, (2.0, 3.0)), ("VECTOR", (0.1, 0.2), 0.5, (2.0, 3.0)),
+                                         ("TEXTURE", (0.1, 0.2), 0.5, (2.0, 2.0)), ("TEXTURE", (0.1, 0.2), 0.0, (2.0, 3.0))):
+            found = textures.transform(nodes.Seen(fake.mapping(None, kind, (*place, 0.0), (0.0, 0.0, turn), (*scale, 1.0))))
+            for u, v in ((0.0, 0.0), (1.0, 0.0), (0.3, 0.8)):
+                (x, y), angle = found["offset"], found["rotation"]
+                # glTF turns clockwise, since its v runs down.
+                a, b = u * found["scale"][0], (1.0 - v) * found["scale"][1]
+                here = (x + math.cos(angle) * a + math.sin(angle) * b, 1.0 - (y - math.sin(angle) * a + math.cos(angle) * b))
+                if kind == "TEXTURE":
+                    here, (u, v) = (u, v), moved(place, turn, scale, *here)
+                else:
+                    u, v = moved(place if kind == "POINT" else (0.0, 0.0), turn, scale, u, v)
+                for one, other in zip(here, (u, v)):
+                    self.assertAlmostEqual(one, other)
+        for mapping in (fake.mapping(turn=(0.1, 0.0, 0.0)), fake.mapping(None, "NORMAL"), fake.mapping(place=fake.Node("TEX_NOISE")),
+                        fake.mapping(None, "TEXTURE", turn=(0.0, 0.0, 0.5), scale=(1.0, 2.0, 1.0))):
+            self.assertIsNone(textures.transform(nodes.Seen(mapping)))
+            self.assertEqual(len(self.material(diffuse(fake.texture(fake.image(), mapping)))[1].notes), 1)
+
     def test_height_images_are_no_maps_of_normals(self):
         bumpy = fake.principled(Normal=fake.Node("BUMP", {"Height": fake.texture(fake.image())}))
         result = self.material(bumpy)[1]
         self.assertEqual((result.unbumped, len(result.notes)), ({"M"}, 1))
-        mapped = fake.principled(Normal=fake.Node("NORMAL_MAP", {"Color": fake.texture(fake.image())}))
+        mapped = fake.principled(Normal=fake.Node("NORMAL_MAP", {"Color": fake.texture(fake.image(space="Non-Color"))}))
         result = self.material(mapped)[1]
         self.assertEqual((result.unbumped, result.notes), (set(), []))
 
@@ -277,7 +385,7 @@ class Materials(unittest.TestCase):
         self.assertEqual(notes(here), ["material 'M': nodes that are not brought over: 'MIX_RGB'"])
         coordinates = fake.Node("TEX_COORD", outputs=("UV", "Object"))
         for output, said in (("UV", 1), ("Object", 2)):
-            self.assertEqual(len(notes(here, fake.Node("MAPPING", {"Vector": (coordinates, output)}))), said)
+            self.assertEqual(len(notes(here, fake.mapping((coordinates, output)))), said)
         for picture, properties in ((None, {}), (fake.image(size=(0, 0)), {}), (fake.image(source="SEQUENCE"), {}),
                                     (here, {"projection": "BOX"}), (here, {"extension": "CLIP"})):
             self.assertEqual(len(notes(picture, **properties)), 2)
@@ -338,7 +446,8 @@ class Document(unittest.TestCase):
 
     def mend(self, **changes):
         document = self.document()
-        binary = glb_materials.mend(document, b"12345", Written(**changes), lambda image: (b"PNG", "image/png"))
+        binary = glb_materials.mend(document, b"12345", Written(**changes), lambda image: (b"PNG", "image/png"),
+                                    lambda material, uv_map: {"": 0, "Second": 1}[uv_map])
         return document, binary
 
     def test_alpha_bumps_and_sides(self):
@@ -347,6 +456,26 @@ class Document(unittest.TestCase):
             {"name": "A", "alphaMode": "BLEND", "doubleSided": True,
              "pbrMetallicRoughness": {"baseColorFactor": [1.0, 1.0, 1.0, 0.5]}},
             {"name": "B", "doubleSided": True}])
+
+    def test_shaders_that_are_not_shown_go(self):
+        document = self.document()
+        document["materials"][0] |= {"emissiveFactor": [1.0] * 3, "pbrMetallicRoughness": {"metallicFactor": 0.5}, "extras": {"mine": 1},
+                                     "extensions": {glb_materials.STRENGTH: {"emissiveStrength": 2.0}, "KHR_materials_ior": {"ior": 1.2}}}
+        whole = copy.deepcopy(document["materials"][0])
+        glb_materials.strip(document, {"A"}, set())
+        self.assertEqual(document["materials"][0], {"name": "A", "emissiveFactor": [1.0] * 3, "extras": {"mine": 1},
+                                                    "extensions": {glb_materials.STRENGTH: {"emissiveStrength": 2.0}}})
+        document["materials"][0] = whole
+        glb_materials.strip(document, set(), {"A"})
+        self.assertEqual((whole["extensions"], "emissiveFactor" in whole, "normalTexture" in whole),
+                         ({"KHR_materials_ior": {"ior": 1.2}}, False, True))
+
+    def test_images_that_are_added_lie_as_blender_has_them(self):
+        transform = {"offset": [0.5, 0.0], "rotation": 0.0, "scale": [2.0, 2.0]}
+        document, _ = self.mend(textures={"A": Texture(fake.image(), uv_map="Second", transform=transform, sampler={"wrapS": 33071})})
+        self.assertEqual(document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"],
+                         {"texCoord": 1, "extensions": {glb_materials.TRANSFORM: transform}, "index": 0})
+        self.assertEqual((document["samplers"], document["extensionsUsed"]), ([{"wrapS": 33071}], [glb_materials.TRANSFORM]))
 
     def test_fog_that_is_not_read_is_left_out(self):
         document, _ = self.mend(left_out={"B"})
@@ -360,19 +489,26 @@ class Document(unittest.TestCase):
     def test_images_are_added_once(self):
         picture = fake.image("bark")
         namesake = fake.image("bark", size=(4, 4))
-        document, _ = self.mend(textures={"A": (picture, False), "B": (namesake, False)})
+        document, _ = self.mend(textures={"A": Texture(picture), "B": Texture(namesake)})
         self.assertEqual(len(document["images"]), 2)
-        document, binary = self.mend(textures={"A": (picture, True), "B": (picture, False)})
+        document, binary = self.mend(textures={"A": Texture(picture, True), "B": Texture(picture)})
         self.assertEqual(binary, b"12345\0\0\0PNG")
         self.assertEqual(document["bufferViews"], [{"buffer": 0, "byteOffset": 8, "byteLength": 3}])
-        self.assertEqual((document["textures"], document["images"][0]["mimeType"]), ([{"source": 0}], "image/png"))
+        self.assertEqual((document["textures"], document["images"][0]["mimeType"]), ([{"source": 0, "sampler": 0}], "image/png"))
         self.assertEqual([material["pbrMetallicRoughness"]["baseColorTexture"]["index"] for material in document["materials"]], [0, 0])
         self.assertEqual([material.get("alphaMode") for material in document["materials"]], ["BLEND", None])
 
     @unittest.skipIf(numpy is None, "numpy, which Blender brings, is not here")
+    def test_pixels_that_are_linear_become_srgb(self):
+        for space, expected in (("sRGB", 55), ("Non-Color", 128)):
+            pixels = fake.SimpleNamespace(foreach_get=lambda flat: flat.fill(55.0 / 255.0))
+            picture = fake.image(space=space, size=(1, 1), channels=3, is_dirty=True, packed_file=None, pixels=pixels)
+            found = images.image_bytes(picture, None)[0]
+            size, = struct.unpack_from(">I", found, 33)
+            self.assertEqual(zlib.decompress(found[41:41 + size])[1], expected)
+
+    @unittest.skipIf(numpy is None, "numpy, which Blender brings, is not here")
     def test_pixels_become_a_png(self):
-        import struct
-        import zlib
         found = images.png(numpy.arange(8, dtype=numpy.uint8).reshape(1, 2, 4))
         self.assertEqual(struct.unpack_from(">II", found, 16), (2, 1))
         size, = struct.unpack_from(">I", found, 33)

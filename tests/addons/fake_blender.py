@@ -55,11 +55,16 @@ def mix(share, first=None, second=None):
 def group(inner, name="BSDF", **inputs):
     """A group whose output is that of a node inside."""
     output = Node("GROUP_OUTPUT", {name: inner}, is_active_output=True)
-    return Node("GROUP", inputs, (name,), node_tree=SimpleNamespace(nodes=[output, inner]))
+    return Node("GROUP", inputs, (name,), node_tree=SimpleNamespace(nodes=all_before(output)))
 
 
-def image(name="image", **properties):
-    return SimpleNamespace(**{"name": name, "size": (2, 2), "source": "FILE", "is_float": False, **properties})
+def image(name="image", space="sRGB", **properties):
+    return SimpleNamespace(**{"name": name, "size": (2, 2), "source": "FILE", "is_float": False,
+                              "colorspace_settings": SimpleNamespace(name=space), **properties})
+
+
+def mapping(vector=None, kind="POINT", place=(0.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0), scale=(1.0, 1.0, 1.0)):
+    return Node("MAPPING", {"Vector": vector, "Location": place, "Rotation": turn, "Scale": scale}, vector_type=kind)
 
 
 def texture(picture, vector=None, **properties):
@@ -70,7 +75,20 @@ def texture(picture, vector=None, **properties):
 def tree(kind, surface=None, **inputs):
     """A node tree with its output."""
     output = Node(kind, {"Surface": surface, "Volume": None, "Displacement": None, **inputs}, is_active_output=True)
-    return SimpleNamespace(nodes=[output] + ([surface] if surface is not None else []))
+    return SimpleNamespace(nodes=all_before(output))
+
+
+def all_before(node):
+    """The node and those that lead to it, the nearest first."""
+    found = {id(node): node}
+    waiting = [node]
+    while waiting:
+        for socket in waiting.pop(0).inputs:
+            for link in socket.links:
+                if id(link.from_node) not in found:
+                    found[id(link.from_node)] = link.from_node
+                    waiting.append(link.from_node)
+    return list(found.values())
 
 
 def material(name, surface=None, **inputs):
@@ -131,7 +149,7 @@ def scene(**settings):
                 "filter_radius": 0.0, "working_space": "REC709"}
     render = SimpleNamespace(resolution_x=200, resolution_y=100, resolution_percentage=50, pixel_aspect_x=1.0,
                              pixel_aspect_y=1.0, use_border=False, border_min_x=0.25, border_max_x=0.75, border_min_y=0.0,
-                             border_max_y=0.5, film_transparent=False, motion_blur_shutter=0.5)
+                             border_max_y=0.5, film_transparent=False, motion_blur_shutter=0.5, fps=25, fps_base=1.0)
     return SimpleNamespace(render=render, etendue=SimpleNamespace(**{**defaults, **settings}), world=None,
                            camera=item("View", camera(), "CAMERA"))
 

@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy
 
-from . import glb, glb_materials, overlooked, passes, scene_settings, vertex_colors
+from . import glb, glb_materials, overlooked, passes, scene_settings, textures, vertex_colors
 from .exporter import ExportError, Gltf, on_main_thread, read_gltf
 from .exr import write_exr
 from .identity import Tree, rendered_nodes, unique_names
@@ -47,7 +47,7 @@ def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> 
     """Has the environment name the image: the file that it is of, or a copy of its pixels. Returns arguments."""
     source = Path(bpy.path.abspath(image.filepath, library=image.library)).resolve() if image.filepath else None
     plain = image.source == "FILE" and not image.packed_file and not image.is_dirty
-    linear = image.colorspace_settings.name in ("Linear", "Linear Rec.709", "Non-Color", "Raw")
+    linear = image.colorspace_settings.name in textures.LINEAR
     if plain and linear and source is not None and source.suffix.lower() in (".exr", ".hdr") and source.is_file():
         environment["image"] = str(source)
         return ["--assets", str(source.parent)]
@@ -67,6 +67,20 @@ def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> 
 
 def bytes_of(image: Any) -> tuple[bytes, str]:
     return image_bytes(image, Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None)
+
+
+def uv_sets(items: Iterable[Any], names: dict[Any, str]) -> Callable[[str, str], int]:
+    """Returns a function that has the number of a UV map on the first mesh that has it and a material, by their names; an
+    empty name is for the map that is rendered."""
+    layers = [({names.get(slot.material.original) for slot in item.material_slots if slot.material is not None}, item.data.uv_layers)
+              for item in items if item.type == "MESH"]
+
+    def number(material: str, uv_map: str) -> int:
+        found = (index for used, maps in layers if material in used for index, layer in enumerate(maps)
+                 if (layer.name == uv_map if uv_map else layer.active_render))
+        return next(found, 0)
+
+    return number
 
 
 def move_instanced_areas(gltf: Gltf, lights: dict[str, Any], rendered: Rendered, shown: Collection[int],
@@ -194,7 +208,7 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     written = scene_settings.write(evaluated, rendered.items.values(), materials,
                                    passes.sources(passes.wanted(view_layer), scene.etendue.denoise),
                                    (gltf.times[0], gltf.times[-1]) if gltf.motions else None, evaluated.camera, bpy.app.version,
-                                   view_layer, lambda item: names[item.original])
+                                   view_layer, lambda item: names[item.original], override in gltf.materials)
     written.notes += gltf.notes
     if is_sheared(evaluated.camera.matrix_world):
         written.note(f"camera '{scene.camera.name}': that it is sheared by what it hangs below is not brought over")
@@ -202,7 +216,7 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     written.notes += overlooked.lost(scene, document, gltf.tree, rendered, surfaces, gltf.materials, brought, override)
     written.notes += overlooked.notes(rendered.items.values(), view_layer)
     mend_surfaces(gltf, written, override, names)
-    binary = glb_materials.mend(document, gltf.binary, written, bytes_of)
+    binary = glb_materials.mend(document, gltf.binary, written, bytes_of, uv_sets(rendered.items.values(), names))
     origins = own_materials(document, written, rendered, view_layer, scene.etendue.integrator, names)
     glb.write_glb(file, document, glb.add_motion(document, binary, gltf.times, gltf.motions))
     result = Exported(folder, gltf=document, notes=written.notes,

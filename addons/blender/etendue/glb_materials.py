@@ -6,16 +6,21 @@ import copy
 from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
-from .written import Document, Written
+from .written import Document, Texture, Written
+
+STRENGTH, TRANSFORM = "KHR_materials_emissive_strength", "KHR_texture_transform"
 
 
-def mend(document: Document, binary: bytes, written: Written, image_bytes: Callable[[Any], tuple[bytes, str]]) -> bytes:
+def mend(document: Document, binary: bytes, written: Written, image_bytes: Callable[[Any], tuple[bytes, str]],
+         uv_set: Callable[[str, str], int]) -> bytes:
     """Makes all changes that reading the materials has asked for. `image_bytes` has the file of an image and its media
-    type. Returns the binary part with the images."""
+    type, `uv_set` the number of a UV map on the meshes of a material, by their names. Returns the binary part with the
+    images."""
     leave_out(document, written.left_out)
+    strip(document, written.bare, written.dark)
     shine_both_ways(document)
     remove_bumps(document, written.unbumped)
-    binary = add_textures(document, binary, written.textures, image_bytes)
+    binary = add_textures(document, binary, written.textures, image_bytes, uv_set)
     blend(document, written.blended, written.alphas)
     return binary
 
@@ -50,6 +55,18 @@ def leave_out(document: Document, names: Collection[str]) -> None:
             del node["mesh"]
 
 
+def strip(document: Document, bare: Collection[str], dark: Collection[str]) -> None:
+    """Takes the surface of some materials away and the light of some: what is shown is another shader."""
+    for material in named(document, bare):
+        for key in ("pbrMetallicRoughness", "normalTexture", "occlusionTexture", "alphaMode", "alphaCutoff"):
+            material.pop(key, None)
+        material["extensions"] = {key: value for key, value in material.get("extensions", {}).items() if key == STRENGTH}
+    for material in named(document, dark):
+        for key in ("emissiveFactor", "emissiveTexture"):
+            material.pop(key, None)
+        material.get("extensions", {}).pop(STRENGTH, None)
+
+
 def shine_both_ways(document: Document) -> None:
     """Makes all materials double-sided: Cycles does not look at Backface Culling, and glTF's single sides emit from one."""
     for material in document.get("materials", []):
@@ -75,35 +92,54 @@ def blend(document: Document, names: Collection[str], alphas: Mapping[str, float
             surface["baseColorFactor"] = [*color[:3], color[3] * factor]
 
 
-def add_textures(document: Document, binary: bytes, textures: Mapping[str, tuple[Any, bool]],
-                 image_bytes: Callable[[Any], tuple[bytes, str]]) -> bytes:
+def add_textures(document: Document, binary: bytes, textures: Mapping[str, Texture],
+                 image_bytes: Callable[[Any], tuple[bytes, str]], uv_set: Callable[[str, str], int]) -> bytes:
     """Gives materials images as their base colours, where the exporter has none, or where their alpha counts."""
     data = bytearray(binary)
-    numbers: list[tuple[Any, int]] = []  # images, which may have equal names, and their textures
-    for name, (image, with_alpha) in textures.items():
+    sources: list[tuple[Any, int]] = []  # images, which may have equal names, and their numbers
+    for name, texture in textures.items():
         for material in named(document, {name}):
             surface = material.setdefault("pbrMetallicRoughness", {})
-            if "baseColorTexture" in surface and not with_alpha:
+            given = copy.deepcopy(surface.get("baseColorTexture"))
+            if given is not None and not texture.with_alpha:
                 continue
-            number = next((number for other, number in numbers if other == image), None)
-            if number is None:
-                content, kind = image_bytes(image)
+            source = next((number for other, number in sources if other == texture.image), None)
+            if source is None:
+                content, kind = image_bytes(texture.image)
                 if not content:
                     continue
                 data += b"\0" * (-len(data) % 4)
                 view = {"buffer": 0, "byteOffset": len(data), "byteLength": len(content)}
                 data += content
-                number = add(document, "textures", {"source": add(document, "images", {
-                    "name": image.name, "mimeType": kind, "bufferView": add(document, "bufferViews", view)})})
-                numbers.append((image, number))
-            surface["baseColorTexture"] = {**copy.deepcopy(surface.get("baseColorTexture", {})), "index": number}
-            if with_alpha:
+                source = add(document, "images", {"name": texture.image.name, "mimeType": kind,
+                                                  "bufferView": add(document, "bufferViews", view)})
+                sources.append((texture.image, source))
+            sampler = index_of(document, "samplers", texture.sampler)
+            number = index_of(document, "textures", {"source": source, "sampler": sampler})
+            surface["baseColorTexture"] = {**(laid(document, texture, uv_set(name, texture.uv_map)) if given is None else given),
+                                           "index": number}
+            if texture.with_alpha:
                 material["alphaMode"] = "BLEND"
                 material.pop("alphaCutoff", None)
-    if numbers:
+    if sources:
         buffers = document.setdefault("buffers", [{}])
         buffers[0]["byteLength"] = len(data)
     return bytes(data)
+
+
+def laid(document: Document, texture: Texture, uv_set: int) -> Document:
+    """What says how a texture lies where a material has it."""
+    if texture.transform:
+        used = document.setdefault("extensionsUsed", [])
+        used += [TRANSFORM] if TRANSFORM not in used else []
+    return {**({"texCoord": uv_set} if uv_set else {}),
+            **({"extensions": {TRANSFORM: texture.transform}} if texture.transform else {})}
+
+
+def index_of(document: Document, kind: str, item: Document) -> int:
+    """Returns the number of an item of a list of the document, which gets it if it has none like it."""
+    items = document.setdefault(kind, [])
+    return items.index(item) if item in items else add(document, kind, item)
 
 
 def add(document: Document, kind: str, item: Document) -> int:

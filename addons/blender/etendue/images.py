@@ -9,14 +9,16 @@ from typing import Any
 
 import numpy
 
+from .textures import LINEAR
+
 KINDS = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 
 
 def image_bytes(image: Any, path: Path | None) -> tuple[bytes, str]:
-    """Returns a PNG or JPEG file and its media type: the image's own, which is packed or at `path`, or one of its pixels;
-    empty where the image is missing."""
-    data = b""
-    if image.source == "FILE" and not image.is_dirty:
+    """Returns a PNG or JPEG file and its media type: the image's own, which is packed or at `path`, or one of its pixels,
+    made sRGB where those are linear; empty where the image is missing."""
+    data, linear = b"", image.is_float or image.colorspace_settings.name in LINEAR
+    if image.source == "FILE" and not image.is_dirty and not linear:
         if image.packed_file is not None:
             data = bytes(image.packed_file.data)
         elif path is not None and path.is_file():
@@ -33,7 +35,7 @@ def image_bytes(image: Any, path: Path | None) -> tuple[bytes, str]:
     if image.channels != 4:
         color = pixels[..., :3] if image.channels == 3 else numpy.repeat(pixels[..., :1], 3, axis=2)
         pixels = numpy.concatenate([color, numpy.ones((height, width, 1), numpy.float32)], axis=2)
-    if image.is_float:
+    if linear:
         color = numpy.clip(pixels[..., :3], 0.0, 1.0)
         color = numpy.where(color <= 0.0031308, 12.92 * color, 1.055 * color ** (1.0 / 2.4) - 0.055)
         pixels = numpy.concatenate([color, pixels[..., 3:]], axis=2)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from . import textures, volumes
-from .nodes import VERTICES, Seen, active_output, behind
+from .nodes import VERTICES, Seen, active_output, behind, place, places
 from .written import Document, Written
 
 OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.2, 0.3
@@ -27,15 +28,16 @@ def matte(albedo: list[float]) -> Document:
     return {"diffuse": {"albedo": albedo}}
 
 
-def material(material: Any, closed: bool, written: Written, whole: bool = False, name: str = "") -> Document:
-    """The entry of `materials`: what the exporter drops of the Principled BSDF, and what can be read of other shaders.
-    `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material; `name`: that in the
-    file, where it is another."""
+def material(material: Any, closed: bool, written: Written, whole: bool = False, name: str = "",
+             version: Sequence[int] = (3, 4, 0)) -> Document:
+    """The entry of `materials`: what the exporter of Blender's `version` drops of the Principled BSDF, and what can be read
+    of other shaders. `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material;
+    `name`: that in the file, where it is another."""
     if not material.use_nodes or material.node_tree is None:
         return matte(clamped(list(material.diffuse_color)[:3]))
     output = active_output(material.node_tree, "OUTPUT_MATERIAL")
-    # The exporter takes the active output, be it Eevee's.
-    reader = Reader(name or material.name, closed, written, whole or output is not None and not output.is_active_output)
+    seen = {} if whole else exported(material.node_tree, tuple(version) >= (4,))
+    reader = Reader(name or material.name, closed, written, seen)
     if output is None:
         return reader.nothing("it has no output")
     ends = Seen(output)
@@ -47,18 +49,52 @@ def material(material: Any, closed: bool, written: Written, whole: bool = False,
             written.blended.add(reader.name)
         result = reader.surface(shader)
         reader.notes_of_textures(shader)
+        reader.strip()
         return reader.filled(result, volume) if volume is not None else result
+    reader.strip()
     return reader.nothing("it has no surface") if volume is None else reader.fog(volume)
+
+
+def exported(tree: Any, with_groups: bool) -> dict[str, tuple[str, ...]]:
+    """Returns where the Principled BSDF and the Emission are that the exporter takes: the first of each that leads to the
+    active output, be it Eevee's and whatever is mixed. Exporters before Blender 4.0 see none in groups."""
+    outputs = [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.is_active_output]
+    behind_them = [seen for node in outputs for seen in textures.all_behind(Seen(node))]
+    result = {}
+    for kind in ("BSDF_PRINCIPLED", "EMISSION"):
+        here = {place(seen) for seen in behind_them if seen.type == kind}
+        first = next((at for at in places(tree, with_groups) if at in here), None)
+        if first is not None:
+            result[kind] = first
+    return result
 
 
 @dataclass
 class Reader:
-    """Reads the shaders of one material, which has this name in the file."""
+    """Reads the shaders of one material, which has this name in the file. `exported` has the places of those of which the
+    exporter has written inputs, by their kinds, and `kept` the kinds that are read."""
 
     name: str
     closed: bool
     written: Written
-    whole: bool
+    exported: dict[str, tuple[str, ...]]
+    kept: set[str] = field(default_factory=set)
+
+    def takes(self, shader: Seen) -> bool:
+        """Returns whether the exporter has written the shader's inputs, which then stay in the file."""
+        if self.exported.get(shader.type) != place(shader):
+            return False
+        self.kept.add(shader.type)
+        return True
+
+    def strip(self) -> None:
+        """Has the file lose what the exporter has written of shaders that are not shown."""
+        lost = set(self.exported) - self.kept
+        if "BSDF_PRINCIPLED" in lost:
+            self.written.bare.add(self.name)
+        # Where there is an Emission, the exporter drops the light of the Principled BSDF.
+        if ("EMISSION" if "EMISSION" in self.exported else "BSDF_PRINCIPLED") in lost:
+            self.written.dark.add(self.name)
 
     def note(self, text: str) -> None:
         self.written.note(f"material '{self.name}': {text}")
@@ -68,7 +104,7 @@ class Reader:
         return matte(BLACK)
 
     def notes_of_textures(self, shader: Seen) -> None:
-        for text in textures.notes(shader):
+        for text in textures.notes(shader, self.written.textures.get(self.name)):
             self.note(text)
 
     # --- what is in the way of shaders
@@ -100,7 +136,7 @@ class Reader:
         self.note(f"of its node '{shader.name}', only '{chosen.name if chosen is not None else 'black'}' is brought over")
         if share is not None and kinds.count("EMISSION") == 1:
             at = kinds.index("EMISSION")
-            return self.surface(sides[1 - at]) | self.shine(sides[at], share if at == 1 else 1.0 - share)
+            return self.lit(self.surface(sides[1 - at]), sides[at], share if at == 1 else 1.0 - share)
         return self.surface(chosen)
 
     def covered(self, mix: Seen, share: float | None, sides: list[Seen | None], clear: int) -> Document:
@@ -110,14 +146,16 @@ class Reader:
         if share is not None:
             self.cover(share if clear == 0 else 1.0 - share)
             return result
-        mask = mix.source(0)
-        own = behind(rest.source(*COLOR, "Color"), "TEX_IMAGE") if rest is not None else None
-        if clear == 0 and mask is not None and own is not None and mask.type == "TEX_IMAGE" and mask.output.name == "Alpha" \
-                and mask.node.image == own.node.image and self.fetch(own, True):
-            if "diffuse" not in result:
-                return result
+        if clear == 0 and rest is not None and "diffuse" not in result and self.masks(mix.source(0), rest):
+            return result
         self.note(f"what is linked to the factor of its node '{mix.name}' is not brought over: nothing is transparent")
         return result
+
+    def masks(self, mask: Seen | None, shader: Seen) -> bool:
+        """Returns whether a node is the alpha of the image that the shader has as its colour, which then counts."""
+        own = behind(shader.source(*COLOR, "Color"), "TEX_IMAGE")
+        return mask is not None and own is not None and mask.type == "TEX_IMAGE" and mask.output.name == "Alpha" \
+            and mask.node.image == own.node.image and self.fetch(own, True)
 
     def add(self, shader: Seen) -> Document:
         """A shader and the light of another one; else the first of two."""
@@ -125,7 +163,7 @@ class Reader:
         shining = [side for side in sides if side is not None and side.type == "EMISSION"]
         others = [side for side in sides if side is not None and side.type != "EMISSION"]
         if len(shining) == 1 and others:
-            return self.surface(others[0]) | self.shine(shining[0])
+            return self.lit(self.surface(others[0]), shining[0])
         both = others or shining
         if len(both) == 2:
             self.note(f"of its node '{shader.name}', only '{both[0].name}' is brought over")
@@ -155,20 +193,20 @@ class Reader:
         """Has the GLB get the image, and returns whether there is one."""
         if texture.node.image is None:
             return False
-        self.written.textures[self.name] = (texture.node.image, with_alpha)
+        self.written.textures[self.name] = textures.laid(texture, with_alpha)
         return True
 
-    def number(self, shader: Seen, name: str, default: float) -> float:
-        """The constant number of an input, `default` where something else is linked to it."""
-        value = shader.value(name, default=default)
+    def number(self, shader: Seen, *names: str, default: float) -> float:
+        """The constant number of an input with one of these names, `default` where something else is linked to it."""
+        value = shader.value(*names, default=default)
         if value is None:
-            self.note(f"what is linked to '{name}' of '{shader.name}' is not brought over")
+            self.note(f"what is linked to '{shader.socket(*names).name}' of '{shader.name}' is not brought over")
         return default if value is None else value
 
     def roughness(self, shader: Seen, default: float) -> float:
         if getattr(shader.node, "distribution", "") == "SHARP":
             return 0.0
-        return min(max(self.number(shader, "Roughness", default), 0.0), 1.0)
+        return min(max(self.number(shader, "Roughness", default=default), 0.0), 1.0)
 
     def flat(self, shader: Seen) -> None:
         if shader.is_linked("Normal"):
@@ -189,7 +227,7 @@ class Reader:
         self.flat(shader)
         if shader.type == "BSDF_REFRACTION":
             self.note(f"its node '{shader.name}' reflects, too, as glass does")
-        ior = self.number(shader, "IOR", 1.45)
+        ior = self.number(shader, "IOR", default=1.45)
         if ior < 1.0:
             self.note("an index of refraction below 1 is not brought over")
         return {"base_color": self.color(shader, "Color"), "metallic": 0.0, "roughness": self.roughness(shader, 0.0),
@@ -222,13 +260,21 @@ class Reader:
     def emission(self, shader: Seen) -> Document:
         return matte(BLACK) | self.shine(shader)
 
+    def lit(self, result: Document, shader: Seen, share: float = 1.0) -> Document:
+        """A surface with the light of an Emission in place of its own."""
+        own = result.pop("emission", {})
+        if any(own.get("color", ())) and own.get("strength", 1.0) > 0.0:
+            self.note(f"beside the light of '{shader.name}', that of the surface is not brought over")
+        return result | self.shine(shader, share)
+
     def shine(self, shader: Seen, share: float = 1.0) -> Document:
         """The light of an Emission; where its colour has an image, the exporter has the light."""
-        color, strength = shader.value("Color"), shader.value("Strength")
+        color, strength, taken = shader.value("Color"), shader.value("Strength"), self.takes(shader)
         if color is None:
             self.cut_at_one(shader.source("Color"))
-            if behind(shader.source("Color"), "TEX_IMAGE") is not None and not shader.groups and strength != 0.0:
-                return {}
+            if behind(shader.source("Color"), "TEX_IMAGE") is not None and taken and strength != 0.0:
+                least = 1.0 if strength is None else max(strength, 0.0)
+                return {} if share == 1.0 else {"emissive": WHITE, "emissive_strength": share * least}
             self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
             color = BLACK
         if strength is None:
@@ -252,15 +298,16 @@ class Reader:
     # --- the Principled BSDF
 
     def principled(self, shader: Seen) -> Document:
+        taken = self.takes(shader)
         alpha = shader.value("Alpha", default=1.0)
-        if alpha is None or alpha < 1.0:
+        if taken and (alpha is None or alpha < 1.0):
             self.written.blended.add(self.name)
-        self.check_normals(shader)
+        self.check_normals(shader, taken)
         self.cut_at_one(shader.source(*EMISSION))
         wax = self.subsurface(shader)
         if wax is not None:
             return wax
-        result = self.unseen(shader)
+        result = self.unseen(shader) if taken else self.all_of(shader)
         transmission = result.get("transmission", shader.value(*TRANSMISSION, default=0.0))
         if transmission is None or transmission > 0.0:
             if self.closed:
@@ -276,7 +323,7 @@ class Reader:
             coat = shader.value("Clearcoat")
             if coat is None or coat > 0.0:
                 # Blender before 4.0 shows a quarter of it.
-                result["clearcoat"] = 0.25 * (1.0 if coat is None else min(coat, 1.0))
+                result["clearcoat"] = 0.25 * (result.get("clearcoat", 1.0) if coat is None else min(coat, 1.0))
         film = shader.value("Thin Film Thickness", default=0.0)
         if film:
             result |= {"iridescence": 1.0, "iridescence_ior": max(shader.value("Thin Film IOR", default=1.33) or 1.33, 1.0),
@@ -291,45 +338,70 @@ class Reader:
         return result
 
     def unseen(self, shader: Seen) -> Document:
-        """Factors that the exporter does not read: what is linked to constants, and all where it has not seen the shader."""
-        hidden, result = self.whole or bool(shader.groups), {}
+        """Factors that the exporter does not read of what it has seen: what is linked to constants."""
+        result: Document = {}
         for key, names, usual in FACTORS:
             value = shader.value(*names, default=usual)
-            if value is not None and (hidden or shader.is_linked(*names)):
+            if value is not None and shader.is_linked(*names):
                 result[key] = min(max(value, 0.0), 1.0)
-            elif value is None and (hidden or behind(shader.source(*names), "TEX_IMAGE") is None):
-                self.note(f"what is linked to '{names[-1]}' of '{shader.name}' is not brought over")
-                result[key] = usual
+            elif value is None and behind(shader.source(*names), "TEX_IMAGE") is None:
+                result[key] = self.number(shader, *names, default=usual)
         color = shader.value(*COLOR)
-        if hidden:
-            result["base_color"] = self.color(shader, *COLOR)
-            level = shader.value("Specular IOR Level", "Specular", default=0.5)
-            result["specular"] = min(2.0 * (0.5 if level is None else level), 1.0)
-            alpha = shader.value("Alpha", default=1.0)
-            if alpha is not None and alpha < 1.0:
-                self.cover(alpha)
-            light, strength = shader.value(*EMISSION), shader.value("Emission Strength", default=1.0)
-            if light is None or strength is None:
-                self.note(f"the light of '{shader.name}' is not brought over")
-            else:
-                result["emission"] = {"color": [max(channel, 0.0) for channel in light], "strength": max(strength, 0.0)}
-            return result
         if color is not None and shader.is_linked(*COLOR):
             result["base_color"] = clamped(color)
         elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", *VERTICES) is None:
             self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
             result["base_color"] = GREY
+        if "EMISSION" in self.exported:
+            return result | self.glow(shader)
         # The exporter has white light where it cannot read the colour.
         if shader.value(*EMISSION, default=BLACK) is None and behind(shader.source(*EMISSION), "TEX_IMAGE") is None:
             self.note(f"the light of '{shader.name}' is not brought over")
             result["emission"] = {"color": BLACK}
         return result
 
-    def check_normals(self, shader: Seen) -> None:
+    def all_of(self, shader: Seen) -> Document:
+        """All factors of a shader that the exporter has not seen, or of which it has another in its place."""
+        result: Document = {key: min(max(self.number(shader, *names, default=usual), 0.0), 1.0) for key, names, usual in FACTORS}
+        result["base_color"] = self.color(shader, *COLOR)
+        level = self.number(shader, "Specular IOR Level", "Specular", default=0.5)
+        result["specular"] = min(2.0 * max(level, 0.0), 1.0)
+        # Before Blender 4.0, Specular alone says how much reflects.
+        if shader.socket("Specular IOR Level") is not None:
+            result["ior"] = max(self.number(shader, "IOR", default=1.5), 1.0)
+            result["specular_color"] = clamped(shader.value("Specular Tint") or WHITE)
+        coat = shader.value("Coat Weight", "Clearcoat", default=0.0)
+        if coat is None or coat > 0.0:
+            result["clearcoat"] = min(self.number(shader, "Coat Weight", "Clearcoat", default=0.0), 1.0)
+            result["clearcoat_roughness"] = min(self.number(shader, "Coat Roughness", "Clearcoat Roughness", default=0.03), 1.0)
+        self.cover_by(shader)
+        return result | self.glow(shader)
+
+    def cover_by(self, shader: Seen) -> None:
+        """Makes the Alpha of a shader that the exporter has not seen coverage: a constant, or that of its own image."""
+        alpha = shader.value("Alpha", default=1.0)
+        if alpha is None and not self.masks(shader.source("Alpha"), shader):
+            self.note(f"what is linked to 'Alpha' of '{shader.name}' is not brought over")
+        elif alpha is not None and alpha < 1.0:
+            self.cover(alpha)
+
+    def glow(self, shader: Seen) -> Document:
+        """The light of a Principled BSDF that the exporter has not written."""
+        light, strength = shader.value(*EMISSION, default=BLACK), shader.value("Emission Strength", default=1.0)
+        if strength == 0.0 or light == BLACK:
+            return {}
+        if light is None or strength is None:
+            self.note(f"the light of '{shader.name}' is not brought over")
+            return {}
+        return {"emission": {"color": [max(channel, 0.0) for channel in light], "strength": max(strength, 0.0)}}
+
+    def check_normals(self, shader: Seen, taken: bool) -> None:
         """Takes away height images, which the exporter has for maps of normals."""
         for name in ("Normal", "Clearcoat Normal", "Coat Normal"):
             source = shader.source(name)
-            if source is not None and source.type != "NORMAL_MAP":
+            if source is not None and not taken:
+                self.note(f"what is linked to '{name}' of '{shader.name}' is not brought over")
+            elif source is not None and source.type != "NORMAL_MAP":
                 self.written.unbumped.add(self.name)
                 self.note(f"'{source.name}' at its input {name} is not brought over: only normal maps are")
 
@@ -376,7 +448,7 @@ class Reader:
 def body(albedo: Any, radius: Any, scale: float, rough: float, ior: float, forward: float) -> Document:
     """A body in which light scatters."""
     return {"subsurface": {"albedo": clamped(albedo), "radius": [max(length * scale, 1e-5) for length in radius],
-                           "anisotropy": forward, "roughness": min(rough, 1.0), "ior": min(max(ior, 1.0), 3.0)}}
+                           "anisotropy": min(max(forward, -0.999), 0.999), "roughness": min(rough, 1.0), "ior": min(max(ior, 1.0), 3.0)}}
 
 
 def anisotropy(stretch: float, roughness: float, rotation: float) -> Document:

@@ -151,6 +151,15 @@ def place(seen: Seen) -> tuple[str, ...]:
     return (*(group.name for group in seen.groups), seen.name)
 
 
+def places(tree: Any, with_groups: bool, groups: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Yields the places of all nodes of a tree in their order, those of groups last."""
+    yield from ((*groups, node.name) for node in tree.nodes)
+    if with_groups:
+        for node in tree.nodes:
+            if node.type == "GROUP" and node.node_tree is not None:
+                yield from places(node.node_tree, True, (*groups, node.name))
+
+
 def blackbody(kelvin: float) -> list[float]:
     """Returns the colour of a black body in linear Rec.709, of a luminance of 1 as in Cycles."""
     xyz = [0.0, 0.0, 0.0]

@@ -169,10 +169,10 @@ def clamp(entry: Document, what: str, written: Written) -> None:
 
 def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, bool]], aovs: Sequence[str],
           moving: tuple[float, float] | None = None, camera: Any = None, version: Sequence[int] = (3, 4, 0),
-          view_layer: Any = None, name_of: Callable[[Any], str] = lambda item: item.name) -> Written:
+          view_layer: Any = None, name_of: Callable[[Any], str] = lambda item: item.name, override_seen: bool = False) -> Written:
     """render.json for a scene of Blender's `version`: `objects` are those that are rendered, `materials` theirs, each with
     whether all meshes that have it are closed, `moving` the seconds in which the shutter is open. `name_of` gives the names
-    that the file has."""
+    that the file has; `override_seen`: it has the material that overrides all others."""
     written = Written()
     render, settings = scene.render, scene.etendue
     camera = camera or scene.camera
@@ -199,7 +199,8 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     if "mist" in aovs and scene.world is not None:
         document["mist"] = mist(scene.world.mist_settings)
     if moving is not None:
-        document |= {"time_code": 0.0, "shutter": list(moving)}
+        # The layer `vector` is in frames.
+        document |= {"time_code": 0.0, "shutter": list(moving), "fps": render.fps / render.fps_base}
     matrix = camera.matrix_world
     document |= lens(camera.data, matrix, *view_size(render))
     document["cameras"] = {name_of(camera): camera_settings(camera.data, written, *view_size(render))}
@@ -214,7 +215,8 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     if lights:
         document["lights"] = lights
     override = getattr(view_layer, "material_override", None)
-    entries = {name_of(item): material(item, closed, written, item == override, name_of(item)) for item, closed in materials}
+    entries = {name_of(item): material(item, closed, written, item == override and not override_seen, name_of(item), version)
+               for item, closed in materials}
     entries = {name: entry for name, entry in entries.items() if entry}
     if entries:
         document["materials"] = entries

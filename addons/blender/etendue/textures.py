@@ -1,27 +1,39 @@
-"""What Blender's exporter does not bring over of the nodes before a shader's inputs. Needs nothing of Blender."""
+"""How images lie, and what Blender's exporter does not bring over of the nodes before a shader's inputs. Needs nothing of
+Blender."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
-from .nodes import Seen, place
+from .nodes import Seen, behind, place
+from .written import Document, Texture
 
 # Nodes that the exporter reads, or of which others tell.
 READ = ("TEX_IMAGE", "UVMAP", "NORMAL_MAP", "SEPARATE_COLOR", "SEPRGB", "VERTEX_COLOR", "ATTRIBUTE", "BUMP", "MAPPING", "TEX_COORD",
         "NORMAL", "GROUP_INPUT")
 SHADERS = ("BSDF_", "MIX_SHADER", "ADD_SHADER", "EMISSION", "SUBSURFACE_SCATTERING", "HOLDOUT", "BACKGROUND", "EEVEE_")
 SOURCES = {"SEQUENCE": "a sequence", "MOVIE": "a movie"}
+# glTF's numbers for what happens beyond the edges of an image and between its pixels.
+WRAPS = {"EXTEND": 33071, "CLIP": 33071, "MIRROR": 33648, "REPEAT": 10497}
+LINEAR_FILTERS, CLOSEST_FILTERS = {"magFilter": 9729, "minFilter": 9987}, {"magFilter": 9728, "minFilter": 9984}
+COLORS = ("Base Color", "Color", "Emission", "Emission Color", "Subsurface Color")  # inputs that are colours, not data
+LINEAR = ("Linear", "Linear Rec.709", "Non-Color", "Raw")  # spaces whose pixels are taken as they are
 
 
-def notes(shader: Seen) -> Iterator[str]:
-    """Says what is lost of all that leads to a shader: nodes that change colours, and images that lie otherwise."""
+def notes(shader: Seen, own: Texture | None) -> Iterator[str]:
+    """Says what is lost of all that leads to a shader: nodes that change colours, and images that lie otherwise. `own` is
+    the image that the add-on itself puts into the file."""
     unread: list[str] = []
     for seen in all_behind(shader):
         if seen.type == "TEX_IMAGE":
             yield from notes_of_image(seen)
         elif not seen.type.startswith(SHADERS) and seen.type not in READ and seen.constant() is None and seen.name not in unread:
             unread.append(seen.name)
+    for seen in all_behind(shader):
+        if seen.type.startswith(SHADERS) and seen.type not in ("MIX_SHADER", "ADD_SHADER"):
+            yield from notes_of_spaces(seen, own)
     if unread:
         yield f"nodes that are not brought over: {', '.join(repr(name) for name in unread)}"
 
@@ -50,9 +62,11 @@ def notes_of_image(texture: Seen) -> Iterator[str]:
     if node.projection != "FLAT":
         yield f"the image '{name}' is laid by {node.projection.lower()} projection, which is not brought over"
     if node.extension == "CLIP":
-        yield f"the image '{name}' is repeated, not clipped"
+        yield f"the image '{name}' goes on at its edges, and is not clipped"
     coordinates = texture.source("Vector")
-    while coordinates is not None and coordinates.type == "MAPPING":
+    if coordinates is not None and coordinates.type == "MAPPING":
+        if transform(coordinates) is None:
+            yield f"'{coordinates.name}' before the image '{name}' is not brought over: only constants that turn it in its plane are"
         coordinates = coordinates.source("Vector")
     if coordinates is None or coordinates.type == "UVMAP":
         return
@@ -60,3 +74,49 @@ def notes_of_image(texture: Seen) -> Iterator[str]:
         yield f"'{coordinates.name}' before the image '{name}' is not brought over: only UV maps are"
     elif coordinates.output.name != "UV":
         yield f"the image '{name}' is laid by UV maps, not by {coordinates.output.name} coordinates"
+
+
+def notes_of_spaces(shader: Seen, own: Texture | None) -> Iterator[str]:
+    """Says which images of a shader are of other colour spaces than glTF has: sRGB for colours, and none for data."""
+    for name, source in shader.sources():
+        texture = behind(source, "TEX_IMAGE") if source.type != "BUMP" else None
+        image = texture.node.image if texture is not None else None
+        if image is None or image.is_float or texture.output.name == "Alpha":
+            continue
+        space = image.colorspace_settings.name
+        if own is not None and image == own.image and space in LINEAR:
+            continue  # it becomes sRGB
+        if name in COLORS and space != "sRGB":
+            yield f"the image '{image.name}' is taken to be of sRGB, not of {space}"
+        elif name not in COLORS and space not in LINEAR:
+            yield f"the image '{image.name}' at '{name}' is taken to be data, not of {space}"
+
+
+def laid(texture: Seen, with_alpha: bool) -> Texture:
+    """Returns the image of a texture and how it lies."""
+    node, coordinates, moved = texture.node, texture.source("Vector"), {}
+    if coordinates is not None and coordinates.type == "MAPPING":
+        moved, coordinates = transform(coordinates) or {}, coordinates.source("Vector")
+    uv_map = coordinates.node.uv_map if coordinates is not None and coordinates.type == "UVMAP" else ""
+    wrap, closest = WRAPS.get(node.extension, WRAPS["REPEAT"]), getattr(node, "interpolation", "Linear") == "Closest"
+    sampler = {"wrapS": wrap, "wrapT": wrap, **(CLOSEST_FILTERS if closest else LINEAR_FILTERS)}
+    return Texture(node.image, with_alpha, uv_map, moved, sampler)
+
+
+def transform(mapping: Seen) -> Document | None:
+    """Returns KHR_texture_transform for a Mapping node, None where it has none: there v runs down, and a Mapping scales,
+    turns and moves, or undoes that where it is of textures."""
+    place, turn, scale = (mapping.value(name) for name in ("Location", "Rotation", "Scale"))
+    kind = mapping.node.vector_type
+    if kind == "VECTOR":
+        place = [0.0] * 3
+    if None in (place, turn, scale) or kind == "NORMAL" or any(abs(angle) > 1e-6 for angle in turn[:2]):
+        return None
+    (x, y), angle, (width, height) = place[:2], turn[2], scale[:2]
+    if kind == "TEXTURE":
+        if width == 0.0 or height == 0.0 or (abs(angle) > 1e-6 and abs(width - height) > 1e-6):
+            return None
+        angle, width, height = -angle, 1.0 / width, 1.0 / height
+        x, y = width * (math.sin(angle) * y - math.cos(angle) * x), -height * (math.sin(angle) * x + math.cos(angle) * y)
+    sine, cosine = math.sin(angle), math.cos(angle)
+    return {"offset": [x - height * sine, 1.0 - y - height * cosine], "rotation": angle, "scale": [width, height]}

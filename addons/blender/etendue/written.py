@@ -8,6 +8,18 @@ from typing import Any
 Document = dict[str, Any]
 
 
+@dataclass(frozen=True)
+class Texture:
+    """Holds an image that is to be a base colour: whether its alpha counts, the UV map that lays it, "" for the mesh's
+    own, and glTF's KHR_texture_transform and sampler for it."""
+
+    image: Any
+    with_alpha: bool = False
+    uv_map: str = ""
+    transform: Document = field(default_factory=dict)
+    sampler: Document = field(default_factory=dict)
+
+
 @dataclass
 class Written:
     """Holds render.json, an image that its environment needs, changes of the GLB's materials by their names, and notes."""
@@ -16,8 +28,10 @@ class Written:
     world_image: Any = None
     blended: set[str] = field(default_factory=set)  # whose alpha is coverage, where the exporter drops or cuts it
     alphas: dict[str, float] = field(default_factory=dict)  # multiply what the exporter has
-    textures: dict[str, tuple[Any, bool]] = field(default_factory=dict)  # images of base colours; whether their alpha counts
+    textures: dict[str, Texture] = field(default_factory=dict)  # base colours that the exporter lacks
     unbumped: set[str] = field(default_factory=set)  # whose normal map is a height map
+    bare: set[str] = field(default_factory=set)  # whose surface the exporter has taken from a shader that is not shown
+    dark: set[str] = field(default_factory=set)  # whose light it has taken from such a one
     left_out: set[str] = field(default_factory=set)  # whose surfaces are not there
     notes: list[str] = field(default_factory=list)
 
