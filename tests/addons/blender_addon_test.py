@@ -439,6 +439,19 @@ class Viewport(unittest.TestCase):
             self.assertEqual(seen(), (False, False, False, [True, False, True, True], 3, 9, 7, 2, 20, 6, 100, 90, 6, 1.0))
         self.assertEqual(seen(), before)
 
+    def test_what_has_no_keyframe_yet_is_kept(self):
+        bone = fake.SimpleNamespace(location=[1.0, 2.0])
+        rig = fake.Block("Rig", location=[3.0, 4.0], lost=1.0)
+        rig.path_resolve = {'pose.bones["a.b"]': bone}.__getitem__
+        rig.__class__ = type("Rig", (fake.Block,), {"__getitem__": lambda self, key: self.custom[key]})
+        rig["my.control"] = 5.0
+        paths = ('pose.bones["a.b"].location', "location", "missing", 'gone["x"].value', '["my.control"]', "location")
+        rig.animation_data = fake.SimpleNamespace(action=fake.SimpleNamespace(
+            fcurves=[fake.SimpleNamespace(data_path=path) for path in paths]))
+        with viewport.kept(viewport.keyed([rig, fake.Block("Other")])):
+            bone.location, rig.location, rig["my.control"], rig.lost = [0.0, 0.0], [0.0, 0.0], 0.0, 0.0
+        self.assertEqual((list(bone.location), list(rig.location), rig["my.control"], rig.lost), ([1.0, 2.0], [3.0, 4.0], 5.0, 0.0))
+
     def test_settings_come_back_where_a_change_fails(self):
         one = fake.SimpleNamespace(a=1)
         with self.assertRaises(AttributeError):

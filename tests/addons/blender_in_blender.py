@@ -265,7 +265,10 @@ def artists(folder, program):
         group.links.new(start, points.inputs["Points"])
         group.links.new(origin, points.inputs["Instance"])
         group.links.new(points.outputs[0], end)
-        add(name, mesh(name), location=(0.0, 5.0, 0.0), scale=(1.0, 2.0, 1.0)).modifiers.new(name, "NODES").node_group = group
+        field = add(name, mesh(name), location=(0.0, 5.0, 0.0), scale=(1.0, 2.0, 1.0))
+        if as_instance is None:
+            field.modifiers.new("Wave", "WAVE")
+        field.modifiers.new(name, "NODES").node_group = group
     tile = bpy.data.images.new("tile", 2, 2)
     tile.filepath_raw, tile.file_format = str(folder / "tile.1001.png"), "PNG"
     tile.save()
@@ -276,6 +279,19 @@ def artists(folder, program):
     node.image = tiled
     tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
     add("Tiled", mesh("Tiled", bpy.data.materials["Tiled"]))
+    # What hangs on a bone, and what moves within an instance.
+    rig = add("Rig", bpy.data.armatures.new("Rig"))
+    layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    rig.data.edit_bones.new("Bone").tail = (0.0, 0.0, 1.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    hand = add("Hand", mesh("Hand"), rig, location=(0.0, 1.0, 0.0))
+    hand.parent_type, hand.parent_bone = "BONE", "Bone"
+    for frame in (0, 2):
+        rig.pose.bones["Bone"].location.y = frame
+        rig.pose.bones["Bone"].keyframe_insert("location", frame=frame)
+        bpy.data.objects["Top"].location.x = 1.0 + frame
+        bpy.data.objects["Top"].keyframe_insert("location", frame=frame)
     # Everything moves, and nothing is blurred but by vectors.
     for frame in (0, 2):
         dolly.location.x = frame
@@ -284,9 +300,20 @@ def artists(folder, program):
     layer.update()
 
     scene.render.engine = "ETENDUE"
-    before = [item.hide_viewport for item in bpy.data.objects] + [spline.resolution_u, ring.data.resolution_u, node.image == tiled]
+    # A pose and a place without keyframes.
+    rig["control"] = 0.0
+    rig.keyframe_insert('["control"]', frame=1)
+    bone = rig.pose.bones["Bone"]
+    dolly.location.x, bone.location.y, rig["control"] = 7.0, 8.0, 9.0
+
+    def kept():
+        return [item.hide_viewport for item in bpy.data.objects] + [spline.resolution_u, ring.data.resolution_u, node.image == tiled] + [
+            dolly.location.x, bone.location.y, rig["control"], scene.frame_current]
+
+    before = kept()
     found = export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder / "scene", Path(program))
-    after = [item.hide_viewport for item in bpy.data.objects] + [spline.resolution_u, ring.data.resolution_u, node.image == tiled]
+    after = kept()
+    scene.frame_set(1)
     nodes, parents = found.gltf["nodes"], {}
     for number, entry in enumerate(nodes):
         parents |= {child: number for child in entry.get("children", ())}
@@ -329,9 +356,12 @@ def artists(folder, program):
         closed[name] = is_closed(item.to_mesh())
         item.to_mesh_clear()
     materials = [entry["name"] for entry in found.gltf["materials"]]
+    layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="POSE")
+    export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder / "again", Path(program))
     (folder / "answer.json").write_text(json.dumps({
         "differences": differences, "stands": stands, "places": {name: len(those) for name, those in meshes.items()}, "closed": closed,
-        "put back": before == after, "left": [key for item in (*bpy.data.objects, *bpy.data.materials) for key in item.keys()
+        "mode": rig.mode, "put back": before == after and after[-4:-1] == [7.0, 8.0, 9.0], "left": [key for item in (*bpy.data.objects, *bpy.data.materials) for key in item.keys()
                                               if key == "etendue_number"],
         "triangles": {name: accessors[primitive(name)["indices"]]["count"] // 3 for name in ("Monitor", "Eye", "Within", "Ring")},
         "colors": {name: accessors[primitive(name)["attributes"]["COLOR_0"]]["type"] if "COLOR_0" in primitive(name)["attributes"]

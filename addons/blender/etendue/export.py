@@ -16,7 +16,7 @@ from .exporter import ExportError, Gltf, on_main_thread, read_gltf
 from .exr import write_exr
 from .identity import Tree, rendered_nodes, unique_names
 from .images import image_bytes
-from .placement import Y_UP, columns, has_motion_blur, is_sheared, world_matrices
+from .placement import Y_UP, columns, is_sheared, world_matrices
 from .program import known_part
 from .rendered import Rendered, rendered_objects
 from .surfaces import materials_of, surfaces_of
@@ -198,8 +198,7 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
         raise ExportError(f"'{scene.camera.name}', by which the scene is seen, is no camera")
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "scene.glb"
-    moves = has_motion_blur(scene) or view_layer.use_pass_vector
-    gltf = on_main_thread(lambda: read_gltf(scene, view_layer, file, moves), is_stopped)
+    gltf = on_main_thread(lambda: read_gltf(scene, view_layer, file), is_stopped)
     evaluated, override, document = depsgraph.scene_eval, view_layer.material_override, gltf.document
     rendered = rendered_objects(depsgraph, bpy.data.objects)
     surfaces = surfaces_of(rendered.items)

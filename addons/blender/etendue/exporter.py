@@ -13,8 +13,8 @@ import bpy
 
 from . import glb, vertex_colors
 from .identity import Tree, numbered, take_blocks, tree_of, uses_nodes
-from .placement import find_motions, straighten
-from .viewport import as_rendered, changed
+from .placement import find_motions, has_motion_blur, straighten
+from .viewport import as_rendered, changed, keyed, kept
 
 # Options of the exporter and their names in its versions; those that a version lacks are left out.
 OPTIONS: dict[str, Any] = {
@@ -109,13 +109,18 @@ def context_of(scene: Any, view_layer: Any) -> Iterator[None]:
     window = bpy.context.window or next((window for manager in bpy.data.window_managers for window in manager.windows), None)
     if window is None:
         raise ExportError("there is no window, not even an unseen one, which Blender's glTF exporter needs")
-    before = window.scene, window.view_layer
+    before, active = (window.scene, window.view_layer), window.view_layer.objects.active
+    mode = active.mode if active is not None else "OBJECT"
     show_in(window, scene, view_layer)
     try:
         with bpy.context.temp_override(window=window, scene=scene, view_layer=view_layer):
             yield
     finally:
         show_in(window, *before)
+        # The exporter takes it out of the mode in which the user has it.
+        if active is not None and active.mode != mode:
+            with bpy.context.temp_override(window=window):
+                bpy.ops.object.mode_set(mode=mode)
 
 
 def show_in(window: Any, scene: Any, view_layer: Any) -> None:
@@ -168,11 +173,12 @@ class Gltf:
     motions: dict[int, glb.Motion] = field(default_factory=dict)
 
 
-def read_gltf(scene: Any, view_layer: Any, path: Path, moves: bool) -> Gltf:
+def read_gltf(scene: Any, view_layer: Any, path: Path) -> Gltf:
     """Has Blender export the scene to the path, and reads that."""
     objects, materials, notes = list(bpy.data.objects), list(bpy.data.materials), []
     trees = [material.node_tree for material in materials if material.node_tree is not None] + list(bpy.data.node_groups)
-    with context_of(scene, view_layer), as_rendered(scene, view_layer, bpy.data):
+    owners = [*objects, *materials, *trees, *bpy.data.cameras, *bpy.data.lights, *bpy.data.shape_keys, *bpy.data.worlds]
+    with context_of(scene, view_layer), kept(keyed(owners)), as_rendered(scene, view_layer, bpy.data):
         with first_tiles(bpy.data.images, trees, notes), changed(vertex_colors.choices(bpy.data.meshes)):
             scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
             with slots_for_set_materials(view_layer), numbered(objects), numbered(materials):
@@ -182,6 +188,7 @@ def read_gltf(scene: Any, view_layer: Any, path: Path, moves: bool) -> Gltf:
         tree = tree_of(nodes, take_blocks(nodes, objects))
         result = Gltf(document, binary, tree, take_blocks(document.get("materials", []), materials, True), notes)
         straighten(document, tree)
-        if moves:
-            result.times, result.motions = find_motions(scene, document, tree)
+        blurred = has_motion_blur(scene, view_layer)
+        if blurred or view_layer.use_pass_vector:
+            result.times, result.motions = find_motions(scene, document, tree, blurred, notes)
     return result

@@ -4,32 +4,31 @@ from __future__ import annotations
 
 from typing import Any
 
+import bpy
 import numpy
 from mathutils import Matrix, Quaternion, Vector
 
 from . import glb, scene_settings
 from .identity import Tree, makes_instances_of_children
-from .overlooked import moves_blurred
+from .overlooked import moves_blurred, said
 
 Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 KEYS = 9  # of motion while the shutter is open
 STILL = 0.01  # frames from the current one to where vectors are looked at without motion blur
 
 
-def moments(scene: Any) -> tuple[list[float], list[float]]:
+def moments(scene: Any, blurred: bool) -> tuple[list[float], list[float]]:
     """Frames at which motion is looked at, and their seconds from the opening of the shutter. Without motion blur, they are
     as close as vectors need."""
-    start, end = -STILL, STILL
-    if has_motion_blur(scene):
-        start, end = scene_settings.shutter(scene.render, scene.etendue.shutter_position)
+    start, end = scene_settings.shutter(scene.render, scene.etendue.shutter_position) if blurred else (-STILL, STILL)
     rate = scene.render.fps / scene.render.fps_base
     steps = [index / (KEYS - 1) for index in range(KEYS)]
     offsets = [step * (end - start) for step in steps]
-    return [scene.frame_current + start + offset for offset in offsets], [offset / rate for offset in offsets]
+    return [scene.frame_current + scene.frame_subframe + start + offset for offset in offsets], [offset / rate for offset in offsets]
 
 
-def has_motion_blur(scene: Any) -> bool:
-    return scene.render.use_motion_blur and scene.render.motion_blur_shutter > 0.0
+def has_motion_blur(scene: Any, view_layer: Any) -> bool:
+    return scene.render.use_motion_blur and scene.render.motion_blur_shutter > 0.0 and getattr(view_layer, "use_motion_blur", True)
 
 
 def local_matrix(node: dict[str, Any]) -> Matrix:
@@ -100,33 +99,63 @@ def straighten(document: dict[str, Any], tree: Tree) -> None:
             worlds[number] = exact
 
 
-def find_motions(scene: Any, document: dict[str, Any], tree: Tree) -> tuple[list[float], dict[int, glb.Motion]]:
+def loose_instances(depsgraph: Any) -> dict[Any, list[Matrix]]:
+    """Returns where instances stand that have no objects of their own: on vertices, faces and particles, and those of
+    geometry nodes; by their instancers, and as seen from these."""
+    result: dict[Any, list[Matrix]] = {}
+    for instance in depsgraph.object_instances:
+        if instance.is_instance and not (instance.parent.is_instancer and instance.parent.instance_type == "COLLECTION"):
+            local = instance.parent.matrix_world.inverted_safe() @ instance.matrix_world
+            result.setdefault(instance.parent.original, []).append(local)
+    return result
+
+
+def find_motions(scene: Any, document: dict[str, Any], tree: Tree, blurred: bool,
+                 notes: list[str]) -> tuple[list[float], dict[int, glb.Motion]]:
     """Finds how nodes move while the shutter is open, by the places that Blender gives their objects at moments in
-    between, whatever moves them. Meshes that change their form do not move."""
-    own = tree.own()
+    between, whatever moves them. Meshes that change their form do not move; of instances that stand still, notes tell."""
     now = world_matrices(document, tree)
-    frames, seconds = moments(scene)
+    frames, seconds = moments(scene, blurred)
     frame, subframe = scene.frame_current, scene.frame_subframe
+    # What stands on vertices or particles has no matrix of its own.
+    followed = {number: item for number, item in enumerate(tree.objects) if item is not None and
+                (tree.instancers[number] is None or not makes_instances_of_children(tree.objects[tree.instancers[number]]))}
     worlds: list[dict[int, Matrix]] = []
+    rest = {number: item.matrix_world.copy() for number, item in followed.items()}
+    loose = loose_instances(bpy.context.evaluated_depsgraph_get())
+    restless: set[Any] = set()
     try:
-        rest = {number: item.matrix_world.copy() for number, item in own.items()}
         for moment in frames:
             whole = int(numpy.floor(moment))
             scene.frame_set(whole, subframe=moment - whole)
-            worlds.append({number: item.matrix_world.copy() for number, item in own.items()})
+            worlds.append({number: item.matrix_world.copy() for number, item in followed.items()})
+            if loose and moment in (frames[0], frames[-1]):
+                there = loose_instances(bpy.context.evaluated_depsgraph_get())
+                restless |= {item for item, places in loose.items() if len(places) != len(there.get(item, ()))
+                             or any(map(differ, places, there[item]))}
     finally:
         scene.frame_set(frame, subframe=subframe)
+    notes += said("instances on points, faces or particles do not move while the shutter is open", restless)
+    still = {number for number in followed if blurred and not all(
+        moves_blurred(tree.objects[at]) for at in (number, tree.top_instancer(number)) if at is not None)}
     turned = Y_UP.inverted()
-    still = {number for number, item in own.items() if has_motion_blur(scene) and not moves_blurred(item)}
-    moved = [{number: now[number] if number in still
-              else Y_UP @ world[number] @ rest[number].inverted_safe() @ turned @ now[number] for number in own}
-             for world in worlds]
+    moved: list[list[Matrix]] = []
+    for world in worlds:
+        at = [matrix.copy() for matrix in now]
+        for number in tree.in_order():
+            if number in still:
+                continue
+            # Bones and the like go with what is above them, instances with their instancers.
+            above, move = tree.parents.get(number), Matrix.Identity(4)
+            if number in followed:
+                above, move = tree.instancers[number], Y_UP @ world[number] @ rest[number].inverted_safe() @ turned
+            if above is not None:
+                move = at[above] @ move @ now[above].inverted_safe()
+            at[number] = move @ now[number]
+        moved.append(at)
     motions: dict[int, glb.Motion] = {}
-    for number in own:
+    for number in followed:
         parent = tree.parents.get(number)
-        # A node whose parent is a bone or an instance goes with it.
-        if parent is not None and parent not in own:
-            continue
         local = [at[parent].inverted_safe() @ at[number] if parent is not None else at[number] for at in moved]
         # A node with a matrix keeps it, and what is put above it moves.
         if "matrix" in document["nodes"][number]:

@@ -69,6 +69,44 @@ def changed(changes: Iterable[Change]) -> Iterator[None]:
             setattr(owner, name, value)
 
 
+def keyed(blocks: Iterable[Any]) -> Iterator[tuple[Any, str]]:
+    """Yields the owner and the name of each property of these data-blocks that has keyframes, that of a custom one in
+    brackets."""
+    for block in blocks:
+        action = getattr(getattr(block, "animation_data", None), "action", None)
+        for path in {curve.data_path for curve in getattr(action, "fcurves", ())}:
+            custom = path.endswith('"]')
+            head, _, name = path.rpartition('["' if custom else ".")
+            try:
+                owner = block.path_resolve(head) if head else block
+                found = owner[name[:-2]] if custom else getattr(owner, name)
+            except (AttributeError, KeyError, ValueError):
+                continue  # what it was for is gone
+            if found is not None:
+                yield owner, f'["{name}' if custom else name
+
+
+def value_of(owner: Any, name: str) -> Any:
+    value = owner[name[2:-2]] if name.startswith("[") else getattr(owner, name)
+    return tuple(value) if hasattr(value, "__len__") and not isinstance(value, str) else value
+
+
+@contextmanager
+def kept(properties: Iterable[tuple[Any, str]]) -> Iterator[None]:
+    """Gives properties their values back when this ends: setting a frame undoes what users have changed without a keyframe."""
+    before = [(owner, name, value_of(owner, name)) for owner, name in properties]
+    try:
+        yield
+    finally:
+        for owner, name, value in before:
+            if value_of(owner, name) == value:
+                continue
+            if name.startswith("["):
+                owner[name[2:-2]] = value
+            else:
+                setattr(owner, name, value)
+
+
 @contextmanager
 def as_rendered(scene: Any, view_layer: Any, data: Any) -> Iterator[None]:
     """Shows in viewports what renders show while this lasts, hidden objects included."""
