@@ -10,10 +10,10 @@ ENGINE = "ETENDUE"
 # Beginnings of the names of Blender's panels for all engines that show what this one does not look at.
 NOT_OURS = ("VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "VIEWLAYER_PT_freestyle", "RENDER_PT_simplify",
             "RENDER_PT_freestyle", "RENDER_PT_stereoscopy", "RENDER_PT_gpencil", "DATA_PT_camera_stereoscopy",
-            "MATERIAL_PT_freestyle", "DATA_PT_lightprobe")
+            "MATERIAL_PT_freestyle", "DATA_PT_light", "DATA_PT_area", "DATA_PT_spot", "DATA_PT_falloff_curve")
 # Panels of Eevee's and Cycles' that show what this engine reads.
-SHARED = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light",
-          "MATERIAL_PT_preview", "DATA_PT_light", "DATA_PT_spot", "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture"}
+SHARED = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface",
+          "MATERIAL_PT_preview", "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture"}
 
 
 class RenderPanel:
@@ -105,6 +105,34 @@ class ETENDUE_RENDER_PT_motion_blur(RenderPanel, bpy.types.Panel):
         column.prop(scene.render, "motion_blur_shutter")
 
 
+class ETENDUE_RENDER_PT_stereoscopy(RenderPanel, bpy.types.Panel):
+    bl_label = "Stereoscopy"
+    bl_context = "output"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.scene.render.use_multiview
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.column()
+        column.label(text="Renders fail while this is on", icon="ERROR")
+        column.prop(context.scene.render, "use_multiview", text="Stereoscopy")
+
+
+class ETENDUE_VIEWLAYER_PT_layer(RenderPanel, bpy.types.Panel):
+    bl_label = "Override"
+    bl_context = "view_layer"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layer, column = context.view_layer, self.column()
+        column.prop(layer, "material_override")
+        if hasattr(layer, "world_override"):
+            column.prop(layer, "world_override")
+        column.prop(layer, "samples")
+        column.prop(layer, "use_sky", text="Environment")
+        column.prop(layer, "use_motion_blur", text="Motion Blur")
+
+
 class ETENDUE_VIEWLAYER_PT_passes(RenderPanel, bpy.types.Panel):
     bl_label = "Passes"
     bl_context = "view_layer"
@@ -133,18 +161,65 @@ class ETENDUE_OBJECT_PT_visibility(RenderPanel, bpy.types.Panel):
         item, column = context.object, self.column()
         column.prop(item, "hide_render", text="Show in Renders", invert_checkbox=True)
         column.prop(item, "visible_camera", text="Camera")
+        column.prop(item, "is_shadow_catcher")
+        column.prop(item, "is_holdout")
+        if hasattr(getattr(item, "cycles", None), "use_motion_blur"):
+            column.prop(item.cycles, "use_motion_blur", text="Motion Blur")
 
 
-class ETENDUE_LIGHT_PT_spread(RenderPanel, bpy.types.Panel):
-    bl_label = "Spread"
+class ETENDUE_WORLD_PT_visibility(RenderPanel, bpy.types.Panel):
+    bl_label = "Visibility"
+    bl_context = "world"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.world is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        world, column = context.world, self.column()
+        for owner, name in ((world, "visible_camera"), (getattr(world, "cycles_visibility", None), "camera")):
+            if hasattr(owner, name):
+                column.prop(owner, name, text="Camera")
+                break
+
+
+class ETENDUE_WORLD_PT_mist(RenderPanel, bpy.types.Panel):
+    bl_label = "Mist Pass"
+    bl_context = "world"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.world is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.column()
+        for name in ("start", "depth", "falloff"):
+            column.prop(context.world.mist_settings, name)
+
+
+class ETENDUE_LIGHT_PT_light(RenderPanel, bpy.types.Panel):
+    bl_label = "Light"
     bl_context = "data"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and getattr(context.light, "type", "") == "AREA"
+        return super().poll(context) and context.light is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        self.column().prop(context.light, "spread")
+        light = context.light
+        self.layout.row().prop(light, "type", expand=True)
+        column = self.column()
+        column.prop(light, "color")
+        column.prop(light, "energy")
+        names = {"POINT": ("shadow_soft_size",), "SPOT": ("shadow_soft_size", "spot_size", "spot_blend", "show_cone"),
+                 "SUN": ("angle",), "AREA": ("shape", "size", "spread")}[light.type]
+        for name in ("exposure", *names):
+            if hasattr(light, name):
+                column.prop(light, name)
+            if name == "size" and light.shape in ("RECTANGLE", "ELLIPSE"):
+                column.prop(light, "size_y")
 
 
 class ETENDUE_CAMERA_PT_panorama(RenderPanel, bpy.types.Panel):
@@ -170,7 +245,8 @@ class ETENDUE_CAMERA_PT_panorama(RenderPanel, bpy.types.Panel):
 
 
 CLASSES = (ETENDUE_RENDER_PT_sampling, ETENDUE_RENDER_PT_paths, ETENDUE_RENDER_PT_caustics, ETENDUE_RENDER_PT_film,
-           ETENDUE_RENDER_PT_motion_blur, ETENDUE_VIEWLAYER_PT_passes, ETENDUE_OBJECT_PT_visibility, ETENDUE_LIGHT_PT_spread,
+           ETENDUE_RENDER_PT_motion_blur, ETENDUE_RENDER_PT_stereoscopy, ETENDUE_VIEWLAYER_PT_layer, ETENDUE_VIEWLAYER_PT_passes,
+           ETENDUE_OBJECT_PT_visibility, ETENDUE_WORLD_PT_visibility, ETENDUE_WORLD_PT_mist, ETENDUE_LIGHT_PT_light,
            ETENDUE_CAMERA_PT_panorama)
 
 
