@@ -7,6 +7,7 @@ import math
 import os
 import stat
 import struct
+import subprocess
 import sys
 import tempfile
 import time
@@ -16,7 +17,7 @@ import zipfile
 from pathlib import Path
 
 import fake_blender as fake
-from etendue import child, glb, identity, overlooked, passes, program, scene_settings, vertex_colors, viewport
+from etendue import child, folders, glb, identity, overlooked, passes, program, scene_settings, vertex_colors, viewport
 
 try:
     import numpy
@@ -64,6 +65,12 @@ class Image(unittest.TestCase):
         scene.world = fake.world()
         self.assertNotIn("mist", written(scene).document)
         self.assertEqual(written(scene, aovs=["mist"]).document["mist"], {"start": 2.0, "depth": 8.0, "falloff": "inverse-quadratic"})
+
+    def test_view_layers_have_samples_and_worlds_of_their_own(self):
+        scene, world = fake.scene(), fake.world(fake.Node("BACKGROUND", {"Color": (1, 0, 0, 1), "Strength": 1.0}))
+        for flags, samples in (({"samples": 0}, 32), ({"samples": 7, "world_override": world}, 7)):
+            document = written(scene, view_layer=fake.view_layer(**flags)).document
+            self.assertEqual((document["spp"], "environment" in document), (samples, "world_override" in flags))
 
     def test_what_ends_the_render(self):
         self.assertFalse({"time", "error", "adaptive"} & set(written().document))
@@ -187,6 +194,12 @@ class Cameras(unittest.TestCase):
         camera.dof.focus_object = fake.item("Target", None, "EMPTY", [[1, 0, 0, 5], [0, 1, 0, 1], [0, 0, 1, -7], [0, 0, 0, 1]])
         self.assertEqual(scene_settings.lens(camera, fake.IDENTITY, 4, 3),
                          {"focus_distance": 7.0, "f_stop": 2.8, "sensor_width": 36.0})
+        # Half as large, 1 up, and its bone 4 behind that.
+        rig = fake.item("Rig", None, "ARMATURE", [[0.5, 0, 0, 0], [0, 0.5, 0, 1], [0, 0, 0.5, 0], [0, 0, 0, 1]])
+        eye = fake.SimpleNamespace(matrix=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, -8], [0, 0, 0, 1]])
+        rig.pose = fake.SimpleNamespace(bones={"Eye": eye})
+        camera.dof.focus_object, camera.dof.focus_subtarget = rig, "Eye"
+        self.assertEqual(scene_settings.lens(camera, fake.IDENTITY, 4, 3)["focus_distance"], 4.0)
         camera.type = "ORTHO"
         self.assertAlmostEqual(scene_settings.lens(camera, fake.IDENTITY, 4, 3)["lens_radius"], 0.5 / 2.8)
 
@@ -314,6 +327,11 @@ class Glb(unittest.TestCase):
         self.assertEqual([(light["name"], light["intensity"]) for light in lights], [("L", 0.0), ("K", 0.0)])
         self.assertNotIn("spot", lights[0])
         self.assertEqual(lights[1]["spot"], {"innerConeAngle": 0.1, "outerConeAngle": 0.2})
+
+    def test_bones_do_not_take_the_names_of_objects(self):
+        document = {"nodes": [{"name": "View"}, {"name": "View"}, {}, {"name": "View."}, {"name": "Bone"}]}
+        glb.rename(document, [0, 2, 4], {"View", "View."})
+        self.assertEqual([node.get("name") for node in document["nodes"]], ["View..", "View", None, "View.", "Bone"])
 
     def test_what_is_not_rendered_is_left_out_and_its_children_stay(self):
         document = {"nodes": [{"name": "A", "mesh": 0, "children": [1]}, {"name": "B", "mesh": 1}]}
@@ -450,7 +468,7 @@ class Viewport(unittest.TestCase):
             fcurves=[fake.SimpleNamespace(data_path=path) for path in paths]))
         with viewport.kept(viewport.keyed([rig, fake.Block("Other")])):
             bone.location, rig.location, rig["my.control"], rig.lost = [0.0, 0.0], [0.0, 0.0], 0.0, 0.0
-        self.assertEqual((list(bone.location), list(rig.location), rig["my.control"], rig.lost), ([1.0, 2.0], [3.0, 4.0], 5.0, 0.0))
+        self.assertEqual((bone.location, rig.location, rig["my.control"], rig.lost), ((1.0, 2.0), (3.0, 4.0), 5.0, 0.0))
 
     def test_settings_come_back_where_a_change_fails(self):
         one = fake.SimpleNamespace(a=1)
@@ -622,9 +640,12 @@ class Pixels(unittest.TestCase):
         _, item = next(row for row in passes.STANDARD if row[1].name == "IndexOB")
         image = self.exr(object_id__X=1.0)
         image.attributes["etendue:names/object_id"] = json.dumps(["Ball", "Place/in/Wheel", "a/b"]).encode()
-        given = {"object_id": {"Ball": 7, "Wheel": 3, "a/b": 5}}
+        given = {"object_id": {"Ball": 7, "Wheel": 3, "a/b": 5, "C#2": 9, "C": 1}}
         self.assertEqual(pixels.pixels_of(image, item, given).ravel().tolist(), [3.0, 7.0])
         self.assertEqual(pixels.indices(["Ball", "Place/in/Wheel", "a/b", "other"], given["object_id"]).tolist(), [0, 7, 3, 5, 0])
+        # Scattered instances of a name have numbers.
+        names = ["Ground/Wheel", "Ground/Wheel#57", "Ball#3", "C#2", "D/C#11"]
+        self.assertEqual(pixels.indices(names, given["object_id"]).tolist(), [0, 3, 3, 7, 9, 1])
 
 
 class Program(unittest.TestCase):
@@ -710,6 +731,34 @@ class Program(unittest.TestCase):
             ended = child.run([str(self.script(text))], lambda: time.monotonic() - began > 0.2)
             self.assertTrue(ended.cancelled)
             self.assertLess(time.monotonic() - began, longest)
+
+    def test_it_ends_with_a_process_that_is_killed(self):
+        code = (f"import sys; sys.path.insert(0, {str(ROOT / 'addons/blender')!r}); from etendue import child; "
+                "c = child.Child(['/bin/sleep', '60'], False); print(c.process.pid, flush=True); input()")
+        with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            there = Path(f"/proc/{int(process.stdout.readline())}")
+            if "setpriv" not in " ".join(child.tied(["/bin/sleep"])):
+                self.skipTest("there is no setpriv")
+            for _ in range(100):  # until setpriv has become the program
+                if b"setpriv" not in (there / "cmdline").read_bytes():
+                    break
+                time.sleep(0.02)
+            process.kill()
+        for _ in range(100):
+            if not there.exists() or (there / "stat").read_text().rpartition(")")[2].split()[0] == "Z":
+                return
+            time.sleep(0.02)
+        self.fail("it goes on")
+
+    def test_folders_of_processes_that_are_no_more_go(self):
+        above, other = self.folder / "blender_me", self.folder / "blender_other"
+        for folder in (above, other):
+            folder.mkdir()
+        kept, mine, before = (folders.make(str(place), keep) for place, keep in ((above, str(above)), (above, ""), (other, "")))
+        for alive in (True, False):
+            with unittest.mock.patch("os.kill", side_effect=None if alive else ProcessLookupError):
+                folders.sweep(str(above))
+            self.assertEqual([path.exists() for path in (kept, mine, before)], [True, alive, alive])
 
     def test_errors(self):
         ended = child.run([str(self.script("echo 'error: it is broken' >&2; exit 3"))], lambda: False)

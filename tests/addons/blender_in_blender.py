@@ -4,6 +4,7 @@ import json
 import os
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import numpy
@@ -88,6 +89,29 @@ def previews(answer):
     Path(answer).write_text(json.dumps(means))
 
 
+def draw_all():
+    """Draws all panels of the engine's own on a layout that only looks whether their properties are there."""
+    from etendue import panels as own
+
+    class Layout:
+        def __getattr__(self, name):
+            return lambda *words, **options: self
+
+        def prop(self, owner, name, **_):
+            assert name in owner.bl_rna.properties, (owner, name)
+
+    world, lamp, camera = bpy.context.scene.world, bpy.data.lights.new("L", "POINT"), bpy.data.cameras.new("C")
+    camera.type = "PANO"
+    for kind in ("POINT", "SUN", "SPOT", "AREA"):
+        lamp.type = kind
+        context = SimpleNamespace(scene=bpy.context.scene, view_layer=bpy.context.view_layer, object=bpy.context.object, world=world,
+                                  light=bpy.data.lights["L"], camera=camera, engine="ETENDUE")
+        for panel in own.CLASSES:
+            stub = type("Stub", (own.RenderPanel,), {"layout": Layout()})()
+            assert isinstance(panel.poll.__func__(panel, context), bool), panel
+            panel.draw(stub, context)
+
+
 def panels(answer):
     """Writes which panels are drawn with the engine, and which of them stay when it goes."""
     import addon_utils
@@ -97,6 +121,7 @@ def panels(answer):
         return [panel for panel in bpy.types.Panel.__subclasses__() if "ETENDUE" in getattr(panel, "COMPAT_ENGINES", ())]
 
     names = sorted(panel.__name__ for panel in ours())
+    draw_all()
     addon_utils.disable("etendue")
     left = [panel.__name__ for panel in ours() if panel.is_registered]
     addon_utils.enable("etendue")

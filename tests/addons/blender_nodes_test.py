@@ -273,8 +273,9 @@ class Materials(unittest.TestCase):
 
     def test_images_that_are_lost_with_the_shader_of_the_exporter_are_said(self):
         picture = fake.image(space="Non-Color")
-        shader = fake.principled(Roughness=fake.texture(picture), Alpha=(fake.texture(picture), "Alpha"), Emission=fake.texture(picture),
-                                 Normal=fake.Node("NORMAL_MAP", {"Color": fake.texture(picture)}), Clearcoat=fake.texture(picture))
+        image = fake.texture(picture)
+        shader = fake.principled(Roughness=image, Alpha=(image, "Alpha"), Emission=image, Clearcoat=image,
+                                 Normal=fake.Node("NORMAL_MAP", {"Color": image}))
         shader.name = "Second"
         found, result = self.material(fake.mix(1.0, fake.principled(), shader))
         self.assertEqual((found["roughness"], found["clearcoat"]), (0.5, 0.0))
@@ -283,8 +284,8 @@ class Materials(unittest.TestCase):
 
     def test_exporters_since_blender_4_see_what_groups_have(self):
         picture = fake.image(space="Non-Color")
-        shader = fake.group(fake.principled(Base_Color=GREY, Roughness=fake.texture(picture), Metallic=fake.Node("GROUP_INPUT", outputs=("Metal",))),
-                            Metal=0.25)
+        metal = fake.Node("GROUP_INPUT", outputs=("Metal",))
+        shader = fake.group(fake.principled(Base_Color=GREY, Roughness=fake.texture(picture), Metallic=metal), Metal=0.25)
         found, result = self.material(shader, version=(4, 3, 0))
         self.assertEqual((found, result.bare, result.notes), ({"metallic": 0.25}, set(), []))
         found, result = self.material(shader)
@@ -293,7 +294,8 @@ class Materials(unittest.TestCase):
     def test_alpha_in_groups_is_that_of_the_image_or_said(self):
         leaves = fake.image("leaves")
         for other, alpha, said in ((leaves, True, 0), (fake.image("mask"), False, 1)):
-            shader = fake.group(fake.principled(Base_Color=fake.texture(leaves), Alpha=(fake.texture(other, name="mask"), "Alpha")))
+            mask = (fake.texture(other, name="mask"), "Alpha")
+            shader = fake.group(fake.principled(Base_Color=fake.texture(leaves), Alpha=mask))
             result = self.material(shader)[1]
             self.assertEqual((result.textures["M"].with_alpha, len(result.notes)), (alpha, said))
 
@@ -315,10 +317,11 @@ class Materials(unittest.TestCase):
 
     def test_images_lie_as_their_nodes_say(self):
         uv_map = fake.Node("UVMAP", outputs=("UV",), uv_map="Second")
-        shader = diffuse(fake.texture(fake.image(), fake.mapping(uv_map, place=(0.1, 0.2, 0.0), turn=(0.0, 0.0, 0.5), scale=(2.0, 3.0, 1.0)),
-                                      extension="EXTEND", interpolation="Closest"))
+        mapping = fake.mapping(uv_map, place=(0.1, 0.2, 0.0), turn=(0.0, 0.0, 0.5), scale=(2.0, 3.0, 1.0))
+        shader = diffuse(fake.texture(fake.image(), mapping, extension="EXTEND", interpolation="Closest"))
         found, result = self.material(shader)[1].textures["M"], self.material(shader)[1]
-        self.assertEqual((found.uv_map, found.sampler), ("Second", {"wrapS": 33071, "wrapT": 33071, "magFilter": 9728, "minFilter": 9984}))
+        self.assertEqual(found.sampler, {"wrapS": 33071, "wrapT": 33071, "magFilter": 9728, "minFilter": 9984})
+        self.assertEqual(found.uv_map, "Second")
         self.assertEqual(result.notes, [])
 
     def test_mappings_are_those_of_blender(self):
@@ -341,8 +344,8 @@ class Materials(unittest.TestCase):
                     u, v = moved(place if kind == "POINT" else (0.0, 0.0), turn, scale, u, v)
                 for one, other in zip(here, (u, v)):
                     self.assertAlmostEqual(one, other)
-        for mapping in (fake.mapping(turn=(0.1, 0.0, 0.0)), fake.mapping(None, "NORMAL"), fake.mapping(place=fake.Node("TEX_NOISE")),
-                        fake.mapping(None, "TEXTURE", turn=(0.0, 0.0, 0.5), scale=(1.0, 2.0, 1.0))):
+        for mapping in (fake.mapping(turn=(0.1, 0.0, 0.0)), fake.mapping(None, "NORMAL"),
+                        fake.mapping(place=fake.Node("TEX_NOISE")), fake.mapping(None, "TEXTURE", turn=(0.0, 0.0, 0.5), scale=(1.0, 2.0, 1.0))):
             self.assertIsNone(textures.transform(nodes.Seen(mapping)))
             self.assertEqual(len(self.material(diffuse(fake.texture(fake.image(), mapping)))[1].notes), 1)
 
@@ -459,12 +462,13 @@ class Document(unittest.TestCase):
 
     def test_shaders_that_are_not_shown_go(self):
         document = self.document()
-        document["materials"][0] |= {"emissiveFactor": [1.0] * 3, "pbrMetallicRoughness": {"metallicFactor": 0.5}, "extras": {"mine": 1},
-                                     "extensions": {glb_materials.STRENGTH: {"emissiveStrength": 2.0}, "KHR_materials_ior": {"ior": 1.2}}}
+        strength = {glb_materials.STRENGTH: {"emissiveStrength": 2.0}}
+        document["materials"][0] |= {"emissiveFactor": [1.0] * 3, "pbrMetallicRoughness": {"metallicFactor": 0.5},
+                                     "extras": {"mine": 1}, "extensions": {**strength, "KHR_materials_ior": {"ior": 1.2}}}
         whole = copy.deepcopy(document["materials"][0])
         glb_materials.strip(document, {"A"}, set())
         self.assertEqual(document["materials"][0], {"name": "A", "emissiveFactor": [1.0] * 3, "extras": {"mine": 1},
-                                                    "extensions": {glb_materials.STRENGTH: {"emissiveStrength": 2.0}}})
+                                                    "extensions": strength})
         document["materials"][0] = whole
         glb_materials.strip(document, set(), {"A"})
         self.assertEqual((whole["extensions"], "emissiveFactor" in whole, "normalTexture" in whole),
@@ -472,7 +476,8 @@ class Document(unittest.TestCase):
 
     def test_images_that_are_added_lie_as_blender_has_them(self):
         transform = {"offset": [0.5, 0.0], "rotation": 0.0, "scale": [2.0, 2.0]}
-        document, _ = self.mend(textures={"A": Texture(fake.image(), uv_map="Second", transform=transform, sampler={"wrapS": 33071})})
+        texture = Texture(fake.image(), uv_map="Second", transform=transform, sampler={"wrapS": 33071})
+        document, _ = self.mend(textures={"A": texture})
         self.assertEqual(document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"],
                          {"texCoord": 1, "extensions": {glb_materials.TRANSFORM: transform}, "index": 0})
         self.assertEqual((document["samplers"], document["extensionsUsed"]), ([{"wrapS": 33071}], [glb_materials.TRANSFORM]))
@@ -532,6 +537,15 @@ class Overlooked(unittest.TestCase):
         self.assertTrue(overlooked.moves_blurred(None))
         self.assertEqual(self.notes(fake.item("a", None, "MESH")), [])
 
+    def test_geometry_nodes_that_ask_for_viewports_and_view_layers_that_ask_for_more(self):
+        inner = fake.SimpleNamespace(nodes=[fake.SimpleNamespace(bl_idname="GeometryNodeIsViewport")])
+        group = fake.SimpleNamespace(nodes=[fake.SimpleNamespace(bl_idname="GeometryNodeGroup", node_tree=inner)])
+        for tree, said in ((group, 1), (fake.SimpleNamespace(nodes=[]), 0), (None, 0)):
+            item = fake.item("Field", None, "MESH", modifiers=[fake.SimpleNamespace(type="NODES", node_group=tree)])
+            self.assertEqual(len(self.notes(item)), said)
+        self.assertEqual(self.notes(aovs=[fake.SimpleNamespace(name="Key")]), ["shader AOVs are not brought over: 'Key'"])
+        self.assertEqual(len(self.notes(use_volumes=False, name="Layer")), 1)
+
     def test_volumes_hair_and_lamps(self):
         hair = fake.SimpleNamespace(settings=fake.SimpleNamespace(type="HAIR", render_type="PATH"))
         lamp = fake.light("POINT", cycles=fake.SimpleNamespace(cast_shadow=False))
@@ -577,6 +591,12 @@ class Overlooked(unittest.TestCase):
             return result.notes
 
         self.assertEqual((len(notes()), len(notes(longitude_max=1.0))), (0, 1))
+
+    def test_panoramas_without_their_depth_of_field_are_said(self):
+        result, camera = Written(), fake.camera("PANO")
+        camera.dof.use_dof = True
+        scene_settings.camera_settings(camera, result, 2, 1)
+        self.assertEqual(len(result.notes), 1)
 
 
 @unittest.skipIf(PROGRAM is None, "no program was given")

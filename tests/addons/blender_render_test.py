@@ -226,6 +226,23 @@ class Renders(InBlender):
         self.assertIn("Error: this is a fault of the add-on, TypeError", said)
         self.assertFalse(image.exists())
 
+    def test_nothing_is_left_of_a_blender_that_was_killed(self):
+        blend, image = self.simple("scene.etendue.samples = 1000000")
+        process = self.start(blend, "-E", "ETENDUE", "-f", "1")
+        for line in process.stdout:
+            if "Rendering" in line:
+                break
+        process.kill()
+        process.communicate(timeout=60)
+        for _ in range(50):
+            if not processes_with(str(self.temporary)):
+                break
+            time.sleep(0.1)
+        self.assertEqual(processes_with(str(self.temporary)), [])
+        self.assertEqual(len(self.left_over()), 1)
+        self.blender(blend, "--python-expr", "import bpy; bpy.context.scene.etendue.samples = 1", "-E", "ETENDUE", "-f", "1")
+        self.assertEqual(self.left_over(), [])
+
     def test_it_is_cancelled_at_once(self):
         blend, image = self.simple("scene.etendue.samples = 1000000")
         process = self.start(blend, "-E", "ETENDUE", "-f", "1")
@@ -283,7 +300,10 @@ class Rest(InBlender):
         kept = self.folder / "kept"
         kept.mkdir()
         self.environment["ETENDUE"] = str(self.folder / "missing")
-        self.assertIn("Etendue's files are in", self.inside("install", file, PROGRAM, kept))
+        self.assertIn(f"Etendue's files are in {kept}", self.inside("install", file, PROGRAM, kept))
+        self.assertEqual(len(list(kept.iterdir())), 1)
+        self.inside("install", file, PROGRAM, "")  # outside of Blender's own folder, which goes
+        self.assertEqual([path.parent for path in self.temporary.rglob("etendue-*")], [self.temporary])
         self.assertTrue((self.folder / "scripts/addons/etendue/engine.py").is_file())
         names = {path.relative_to(kept).as_posix().partition("/")[2] for path in kept.rglob("*")}
         self.assertLessEqual({"scene/scene.glb", "scene/render.json", "image.exr"}, names)
@@ -294,7 +314,8 @@ class Rest(InBlender):
         self.assertNotIn("rror", said)
         found = json.loads(answer.read_text())
         self.assertLessEqual({"ETENDUE_RENDER_PT_sampling", "EEVEE_MATERIAL_PT_surface", "DATA_PT_lens", "EEVEE_WORLD_PT_surface",
-                              "DATA_PT_EEVEE_light", "DATA_PT_camera_dof"}, set(found["names"]))
+                              "ETENDUE_LIGHT_PT_light", "DATA_PT_camera_dof"}, set(found["names"]))
+        self.assertEqual([name for name in found["names"] if name.startswith(("DATA_PT_EEVEE", "DATA_PT_area", "DATA_PT_spot"))], [])
         self.assertEqual(found["left"], [])
 
     def test_what_needs_numpy(self):

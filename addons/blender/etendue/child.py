@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -40,6 +41,13 @@ class Ended:
         return "\n".join(errors) or f"the program ended with {self.code}"
 
 
+def tied(words: Sequence[str]) -> list[str]:
+    """Returns the command that ends with this process, even if that is killed, where Linux has the tool for it."""
+    tool = shutil.which("setpriv")
+    is_whole = tool is not None and Path(tool).resolve().name == "setpriv"  # BusyBox's does not know the option
+    return [tool, "--pdeathsig", "TERM", *words] if is_whole and os.access(words[0], os.X_OK) else list(words)
+
+
 class Child:
     """One run of the program. `command` is the program with its arguments; progress comes by a pipe of its own."""
 
@@ -56,7 +64,7 @@ class Child:
                 os.set_blocking(self.reading, False)
                 words += ["--progress-fd", str(writing)]
             # A group of its own: Ctrl-C at Blender's terminal reaches Blender alone, which stops the child.
-            self.process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self.errors,
+            self.process = subprocess.Popen(tied(words), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self.errors,
                                             pass_fds=[writing] if progress else (), env=child_environment(),
                                             start_new_session=True)
         except OSError as error:

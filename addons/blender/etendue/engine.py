@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 import numpy
 
-from . import passes, scene_settings
+from . import folders, passes, scene_settings
 from .child import Progress, run
 from .exr import Exr, read_exr
 from .export import Exported, export_scene
@@ -63,12 +63,15 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
         program = find_program(bpy.path.abspath(given.program) if given and given.program else "")
         if program is None:
             raise ProgramError("the program 'etendue' is not found: name it in the add-on's preferences or in $ETENDUE")
-        above = bpy.path.abspath(given.folder) if given and given.folder else bpy.app.tempdir or None
-        folder = Path(tempfile.mkdtemp(prefix="etendue-", dir=above))
+        named = bpy.path.abspath(given.folder) if given and given.folder else ""
+        keeps = bool(given and given.keep_files)
+        folders.sweep(named or bpy.app.tempdir)
+        # Blender removes its own folder when it ends.
+        folder = folders.make(named or bpy.app.tempdir, (named or tempfile.gettempdir()) if keeps else "")
         try:
             self.render_in(folder, depsgraph, program)
         finally:
-            if given and given.keep_files:
+            if keeps:
                 self.report({"INFO"}, f"Etendue's files are in {folder}")
             else:
                 shutil.rmtree(folder, ignore_errors=True)
@@ -77,9 +80,9 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
         scene = depsgraph.scene.original
         view_layer = scene.view_layers[depsgraph.view_layer.name]
         if scene.render.use_multiview:
-            raise ExportError("stereoscopic images are not rendered")
+            raise ExportError("stereoscopic images are not rendered: turn Stereoscopy off in the output's properties")
         self.update_stats("", "Exporting")
-        exported = export_scene(scene, view_layer, depsgraph, folder / "scene", program, self.test_break)
+        exported = export_scene(scene, view_layer, depsgraph, folder / "scene", program, self.test_break, self.camera_override)
         for note in exported.notes:
             self.report({"WARNING"}, note)
         image = folder / IMAGE

@@ -40,6 +40,8 @@ def give_names(gltf: Gltf, objects: Iterable[Any], materials: Iterable[Any]) -> 
         for entry, item in zip(gltf.document.get(key, []), here):
             if item is not None:
                 entry["name"] = names[item]
+    # A bone may be called as the camera, or as a lamp.
+    glb.rename(gltf.document, [number for number, item in enumerate(gltf.tree.objects) if item is None], names.values())
     return names
 
 
@@ -72,8 +74,8 @@ def bytes_of(image: Any) -> tuple[bytes, str]:
 def uv_sets(items: Iterable[Any], names: dict[Any, str]) -> Callable[[str, str], int]:
     """Returns a function that has the number of a UV map on the first mesh that has it and a material, by their names; an
     empty name is for the map that is rendered."""
-    layers = [({names.get(slot.material.original) for slot in item.material_slots if slot.material is not None}, item.data.uv_layers)
-              for item in items if item.type == "MESH"]
+    layers = [({names.get(slot.material.original) for slot in item.material_slots if slot.material is not None},
+               item.data.uv_layers) for item in items if item.type == "MESH"]
 
     def number(material: str, uv_map: str) -> int:
         found = (index for used, maps in layers if material in used for index, layer in enumerate(maps)
@@ -189,13 +191,15 @@ def pass_indices(rendered: Rendered, materials: Iterable[Any], origins: dict[str
 
 
 def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, program: Path,
-                 is_stopped: Callable[[], bool] = lambda: False) -> Exported:
+                 is_stopped: Callable[[], bool] = lambda: False, camera: Any = None) -> Exported:
     """Writes scene.glb and render.json into the folder. `scene` and `view_layer` are Blender's originals, `depsgraph` has
-    what is rendered."""
-    if scene.camera is None:
+    what is rendered; `camera` is for that of the scene."""
+    camera = camera or scene.camera
+    if camera is None:
         raise ExportError("the scene has no camera")
-    if scene.camera.type != "CAMERA":
-        raise ExportError(f"'{scene.camera.name}', by which the scene is seen, is no camera")
+    if camera.type != "CAMERA":
+        raise ExportError(f"'{camera.name}', by which the scene is seen, is no camera")
+    camera = camera.original.evaluated_get(depsgraph)
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "scene.glb"
     gltf = on_main_thread(lambda: read_gltf(scene, view_layer, file), is_stopped)
@@ -203,15 +207,15 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     rendered = rendered_objects(depsgraph, bpy.data.objects)
     surfaces = surfaces_of(rendered.items)
     materials = materials_of(rendered.items, surfaces, override)
-    names = give_names(gltf, [*rendered.items, evaluated.camera.original], [item for item, _ in materials])
+    names = give_names(gltf, [*rendered.items, camera.original], [item for item, _ in materials])
     written = scene_settings.write(evaluated, rendered.items.values(), materials,
                                    passes.sources(passes.wanted(view_layer), scene.etendue.denoise),
-                                   (gltf.times[0], gltf.times[-1]) if gltf.motions else None, evaluated.camera, bpy.app.version,
+                                   (gltf.times[0], gltf.times[-1]) if gltf.motions else None, camera, bpy.app.version,
                                    view_layer, lambda item: names[item.original], override in gltf.materials)
     written.notes += gltf.notes
-    if is_sheared(evaluated.camera.matrix_world):
-        written.note(f"camera '{scene.camera.name}': that it is sheared by what it hangs below is not brought over")
-    brought = mend_nodes(gltf, rendered, evaluated.camera, evaluated.render, written.document.get("lights", {}), names)
+    if is_sheared(camera.matrix_world):
+        written.note(f"camera '{camera.name}': that it is sheared by what it hangs below is not brought over")
+    brought = mend_nodes(gltf, rendered, camera, evaluated.render, written.document.get("lights", {}), names)
     written.notes += overlooked.lost(scene, document, gltf.tree, rendered, surfaces, gltf.materials, brought, override)
     written.notes += overlooked.notes(rendered.items.values(), view_layer)
     mend_surfaces(gltf, written, override, names)

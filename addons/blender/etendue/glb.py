@@ -70,6 +70,14 @@ def give_nodes_their_own(document: Document) -> None:
         lamp["intensity"] = max(lamp.get("intensity", 1.0), 0.0)  # render.json has the strength
 
 
+def rename(document: Document, numbers: Sequence[int], taken: Collection[str]) -> None:
+    """Gives the nodes with these numbers other names where theirs are taken."""
+    for number in numbers:
+        node = document["nodes"][number]
+        while node.get("name") in taken:
+            node["name"] += "."
+
+
 def leave_out(document: Document, shown: Collection[int]) -> list[str]:
     """Takes meshes and lamps from the nodes that are not to be rendered, and returns their names; what hangs below them
     stays."""

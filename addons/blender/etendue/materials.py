@@ -448,7 +448,8 @@ class Reader:
 def body(albedo: Any, radius: Any, scale: float, rough: float, ior: float, forward: float) -> Document:
     """A body in which light scatters."""
     return {"subsurface": {"albedo": clamped(albedo), "radius": [max(length * scale, 1e-5) for length in radius],
-                           "anisotropy": min(max(forward, -0.999), 0.999), "roughness": min(rough, 1.0), "ior": min(max(ior, 1.0), 3.0)}}
+                           "anisotropy": min(max(forward, -0.999), 0.999), "roughness": min(rough, 1.0),
+                           "ior": min(max(ior, 1.0), 3.0)}}
 
 
 def anisotropy(stretch: float, roughness: float, rotation: float) -> Document:

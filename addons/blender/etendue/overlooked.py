@@ -27,11 +27,15 @@ def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
               (lambda item: item.type in (*SURFACES, "LIGHT") and not is_portal_lamp(item)
                and not all(getattr(item, name, True) for name in RAYS),
                "of Ray Visibility, only Camera is brought over"),
+              (asks_for_viewports, "geometry nodes ask for Is Viewport, which is true in renders too"),
               (casts_no_shadow, "lamps cast shadows even where they should not"),
               (lambda item: any(getattr(getattr(item, "light_linking", None), name, None) is not None
                                 for name in ("receiver_collection", "blocker_collection")),
                "light linking is not brought over")]
     return [*said("light groups are not brought over", getattr(view_layer, "lightgroups", ())),
+            *said("shader AOVs are not brought over", getattr(view_layer, "aovs", ())),
+            *said("volumes are shown in view layers without them",
+                  [] if getattr(view_layer, "use_volumes", True) else [view_layer]),
             *(note for test, text in tests for note in said(text, filter(test, items)))]
 
 
@@ -100,6 +104,18 @@ def casts_no_shadow(item: Any) -> bool:
 def has_hair(item: Any) -> bool:
     return any(system.settings.type == "HAIR" and system.settings.render_type == "PATH"
                for system in getattr(item, "particle_systems", ()))
+
+
+def asks_for_viewports(item: Any) -> bool:
+    """Returns whether geometry nodes of the object have Is Viewport, be it in groups."""
+    waiting = [modifier.node_group for modifier in getattr(item, "modifiers", ()) if modifier.type == "NODES"]
+    for group in waiting:
+        for node in group.nodes if group is not None else ():
+            if getattr(node, "bl_idname", "") == "GeometryNodeIsViewport":
+                return True
+            inner = getattr(node, "node_tree", None)
+            waiting += [inner] if inner is not None and inner not in waiting else []
+    return False
 
 
 def is_hidden(item: Any, view_layer: Any) -> bool:

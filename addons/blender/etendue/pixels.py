@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 
 import numpy
@@ -33,11 +34,14 @@ def combined(exr: Exr, transparent: bool) -> numpy.ndarray:
 
 def indices(names: list[str], given: Mapping[str, int]) -> numpy.ndarray:
     """Blender's pass index for each number of the program, 0 for none. What shares a name has the names above it before
-    its own, and slashes between them."""
+    its own, and slashes between them; what shares these too, a number behind them."""
     def index(name: str) -> int:
-        while name not in given and "/" in name:
-            name = name.partition("/")[2]
-        return given.get(name, 0)
+        for here in (name, re.sub(r"#\d+$", "", name)):
+            while here not in given and "/" in here:
+                here = here.partition("/")[2]
+            if here in given:
+                return given[here]
+        return 0
 
     return numpy.array([0, *map(index, names)], numpy.float32)
 

@@ -24,11 +24,14 @@ def moments(scene: Any, blurred: bool) -> tuple[list[float], list[float]]:
     rate = scene.render.fps / scene.render.fps_base
     steps = [index / (KEYS - 1) for index in range(KEYS)]
     offsets = [step * (end - start) for step in steps]
-    return [scene.frame_current + scene.frame_subframe + start + offset for offset in offsets], [offset / rate for offset in offsets]
+    opens = scene.frame_current + scene.frame_subframe + start
+    return [opens + offset for offset in offsets], [offset / rate for offset in offsets]
 
 
 def has_motion_blur(scene: Any, view_layer: Any) -> bool:
-    return scene.render.use_motion_blur and scene.render.motion_blur_shutter > 0.0 and getattr(view_layer, "use_motion_blur", True)
+    """Returns whether a view layer is rendered while the shutter is open."""
+    return (scene.render.use_motion_blur and scene.render.motion_blur_shutter > 0.0
+            and getattr(view_layer, "use_motion_blur", True))
 
 
 def local_matrix(node: dict[str, Any]) -> Matrix:

@@ -105,12 +105,16 @@ def sensor_of_longer_side(camera: Any, width: float, height: float) -> float:
 
 
 def focus_distance(camera: Any, matrix: Sequence[Sequence[float]]) -> float:
-    """Along the axis of the camera, also where an object says it."""
+    """Along the axis of the camera, also where an object or a bone of it says it."""
     target = camera.dof.focus_object
     if target is None:
         return max(camera.dof.focus_distance, 1e-6)
+    bones = getattr(getattr(target, "pose", None), "bones", {})
+    bone = bones.get(getattr(camera.dof, "focus_subtarget", ""))
+    place = [bone.matrix[r][3] for r in range(4)] if bone is not None else [0.0, 0.0, 0.0, 1.0]
+    there = [sum(a * b for a, b in zip(row, place)) for row in target.matrix_world]
     length = math.sqrt(sum(matrix[r][2] ** 2 for r in range(3))) or 1.0
-    distance = -sum((target.matrix_world[r][3] - matrix[r][3]) * matrix[r][2] for r in range(3)) / length
+    distance = -sum((there[r] - matrix[r][3]) * matrix[r][2] for r in range(3)) / length
     return max(abs(distance), 1e-6)
 
 
@@ -139,6 +143,8 @@ def camera_settings(camera: Any, written: Written, width: float, height: float) 
         if camera.dof.aperture_ratio != 1.0:
             result["aperture_ratio"] = camera.dof.aperture_ratio
     if camera.type == "PANO":
+        if camera.dof.use_dof:
+            written.note("panoramas have no depth of field")
         kind = camera_setting(camera, "panorama_type", "EQUIRECTANGULAR")
         if kind == "EQUIRECTANGULAR":
             result["type"] = "equirectangular"
@@ -175,11 +181,11 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     that the file has; `override_seen`: it has the material that overrides all others."""
     written = Written()
     render, settings = scene.render, scene.etendue
-    camera = camera or scene.camera
+    camera, world = camera or scene.camera, getattr(view_layer, "world_override", None) or scene.world
     width, height = image_size(render)
     document: Document = {
-        "scene": "scene.glb", "size": [width, height], "spp": settings.samples, "seed": settings.seed,
-        "integrator": integrator_settings(settings), "film": film_settings(render, settings),
+        "scene": "scene.glb", "size": [width, height], "seed": settings.seed,
+        "spp": getattr(view_layer, "samples", 0) or settings.samples, "integrator": integrator_settings(settings), "film": film_settings(render, settings),
         "color": {"working_space": REC709 if settings.working_space == "REC709" else "ACEScg", "output_space": REC709,
                   "view": "Un-tone-mapped", "exposure": 0.0},
         "camera": name_of(camera)}
@@ -196,8 +202,8 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
         document["robust"] = f"mon:{settings.robust | 1}"
     if aovs:
         document["aovs"] = list(aovs)
-    if "mist" in aovs and scene.world is not None:
-        document["mist"] = mist(scene.world.mist_settings)
+    if "mist" in aovs and world is not None:
+        document["mist"] = mist(world.mist_settings)
     if moving is not None:
         # The layer `vector` is in frames.
         document |= {"time_code": 0.0, "shutter": list(moving), "fps": render.fps / render.fps_base}
@@ -205,7 +211,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     document |= lens(camera.data, matrix, *view_size(render))
     document["cameras"] = {name_of(camera): camera_settings(camera.data, written, *view_size(render))}
     lit = getattr(view_layer, "use_sky", True)
-    given = environment(scene.world, render.film_transparent, written) if lit else None
+    given = environment(world, render.film_transparent, written) if lit else None
     if given is not None:
         document["environment"] = given
     else:

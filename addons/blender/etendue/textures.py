@@ -66,7 +66,7 @@ def notes_of_image(texture: Seen) -> Iterator[str]:
     coordinates = texture.source("Vector")
     if coordinates is not None and coordinates.type == "MAPPING":
         if transform(coordinates) is None:
-            yield f"'{coordinates.name}' before the image '{name}' is not brought over: only constants that turn it in its plane are"
+            yield f"'{coordinates.name}' before the image '{name}' is not brought over: only constants in its plane are"
         coordinates = coordinates.source("Vector")
     if coordinates is None or coordinates.type == "UVMAP":
         return
