@@ -5,6 +5,7 @@ Called with the program as its last argument, it also holds what is written agai
 import json
 import math
 import os
+import shutil
 import stat
 import struct
 import subprocess
@@ -732,23 +733,25 @@ class Program(unittest.TestCase):
             self.assertTrue(ended.cancelled)
             self.assertLess(time.monotonic() - began, longest)
 
+    @unittest.skipIf(shutil.which("setpriv") is None, "there is no setpriv")
     def test_it_ends_with_a_process_that_is_killed(self):
+        def words(process):
+            """The command line of a process; none where it has ended."""
+            try:
+                return Path(f"/proc/{process}/cmdline").read_bytes()
+            except OSError:
+                return b""
+
+        def waits_for(condition):
+            return any(condition() or time.sleep(0.02) for _ in range(200))
+
         code = (f"import sys; sys.path.insert(0, {str(ROOT / 'addons/blender')!r}); from etendue import child; "
                 "c = child.Child(['/bin/sleep', '60'], False); print(c.process.pid, flush=True); input()")
         with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-            there = Path(f"/proc/{int(process.stdout.readline())}")
-            if "setpriv" not in " ".join(child.tied(["/bin/sleep"])):
-                self.skipTest("there is no setpriv")
-            for _ in range(100):  # until setpriv has become the program
-                if b"setpriv" not in (there / "cmdline").read_bytes():
-                    break
-                time.sleep(0.02)
+            started = int(process.stdout.readline())
+            self.assertTrue(waits_for(lambda: words(started).startswith(b"/bin/sleep")))  # which setpriv becomes
             process.kill()
-        for _ in range(100):
-            if not there.exists() or (there / "stat").read_text().rpartition(")")[2].split()[0] == "Z":
-                return
-            time.sleep(0.02)
-        self.fail("it goes on")
+        self.assertTrue(waits_for(lambda: not words(started)))
 
     def test_folders_of_processes_that_are_no_more_go(self):
         above, other = self.folder / "blender_me", self.folder / "blender_other"

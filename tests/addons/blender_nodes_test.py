@@ -461,18 +461,13 @@ class Document(unittest.TestCase):
             {"name": "B", "doubleSided": True}])
 
     def test_shaders_that_are_not_shown_go(self):
-        document = self.document()
-        strength = {glb_materials.STRENGTH: {"emissiveStrength": 2.0}}
-        document["materials"][0] |= {"emissiveFactor": [1.0] * 3, "pbrMetallicRoughness": {"metallicFactor": 0.5},
-                                     "extras": {"mine": 1}, "extensions": {**strength, "KHR_materials_ior": {"ior": 1.2}}}
-        whole = copy.deepcopy(document["materials"][0])
-        glb_materials.strip(document, {"A"}, set())
-        self.assertEqual(document["materials"][0], {"name": "A", "emissiveFactor": [1.0] * 3, "extras": {"mine": 1},
-                                                    "extensions": strength})
-        document["materials"][0] = whole
-        glb_materials.strip(document, set(), {"A"})
-        self.assertEqual((whole["extensions"], "emissiveFactor" in whole, "normalTexture" in whole),
-                         ({"KHR_materials_ior": {"ior": 1.2}}, False, True))
+        light = {"emissiveFactor": [1.0] * 3, "extensions": {glb_materials.STRENGTH: {"emissiveStrength": 2.0}}}
+        for bare, dark, expected in (({"A"}, set(), light), ({"A"}, {"A"}, {"extensions": {}})):
+            document = self.document()
+            document["materials"][0] |= {"pbrMetallicRoughness": {"metallicFactor": 0.5}, "extras": {"mine": 1}, **copy.deepcopy(light)}
+            document["materials"][0]["extensions"]["KHR_materials_ior"] = {"ior": 1.2}
+            glb_materials.mend(document, b"", Written(bare=bare, dark=dark), lambda image: (b"", ""), lambda *names: 0)
+            self.assertEqual(document["materials"][0], {"name": "A", "doubleSided": True, "extras": {"mine": 1}, **expected})
 
     def test_images_that_are_added_lie_as_blender_has_them(self):
         transform = {"offset": [0.5, 0.0], "rotation": 0.0, "scale": [2.0, 2.0]}

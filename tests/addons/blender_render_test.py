@@ -209,6 +209,23 @@ class Renders(InBlender):
             self.assertIs(entries["Red hidden from the camera"]["visible_to_camera"], False)
             self.assertEqual(found["notes"], [])
 
+    def test_the_shader_that_a_mix_has_chosen_is_shown(self):
+        """Of two Principled BSDFs, the exporter takes the first, with its image and its light."""
+        blend, _ = self.simple(
+            "t = bpy.data.materials['Blue'].node_tree; n = t.nodes; m = n.new('ShaderNodeMixShader'); m.inputs[0].default_value = 1.0; "
+            "i = n.new('ShaderNodeTexImage'); i.image = bpy.data.images.new('paint', 8, 8); "
+            "a, b = (n.new('ShaderNodeBsdfPrincipled') for _ in 'ab'); b.inputs['Base Color'].default_value = (0, 1, 0, 1); "
+            "b.inputs['Metallic'].default_value = 1.0; t.links.new(i.outputs[0], a.inputs['Base Color']); "
+            "e = next(s for s in a.inputs if s.name in ('Emission', 'Emission Color')); e.default_value = (1, 0, 0, 1); "
+            "t.links.new(a.outputs[0], m.inputs[1]); t.links.new(b.outputs[0], m.inputs[2]); "
+            "t.links.new(m.outputs[0], next(o for o in n if o.type == 'OUTPUT_MATERIAL').inputs[0])")
+        answer = self.folder / "answer.json"
+        self.inside("files", blend, answer)
+        found = json.loads(answer.read_text())
+        self.assertFalse({"pbrMetallicRoughness", "emissiveFactor"} & set(found["materials"]["Blue"]), found["materials"]["Blue"])
+        entry = found["render"]["materials"]["Blue"]
+        self.assertEqual((entry["base_color"], entry["metallic"], found["notes"]), ([0.0, 1.0, 0.0], 1.0, []))
+
     def test_an_error_is_said(self):
         for change, program, expected in (
                 ("bpy.context.view_layer.etendue.layers = 'glass=lpe:C (T'", PROGRAM, "render.json#/aovs/0: .*glass"),
