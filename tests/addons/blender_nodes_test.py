@@ -12,7 +12,7 @@ import zlib
 from pathlib import Path
 
 import fake_blender as fake
-from etendue import glb_materials, materials, nodes, overlooked, program, scene_settings, textures, volumes
+from etendue import glb_materials, materials, nodes, overlooked, program, scene_settings, textures, vertex_colors, volumes
 from etendue.written import Texture, Written
 
 try:
@@ -257,6 +257,12 @@ class Materials(unittest.TestCase):
             found, result = self.material(fake.mix(1.0, first, chosen))
             self.assertIn(name, found)
             self.assertEqual(result.bare, {"M"})
+
+    def test_vertex_colours_of_a_branch_that_is_not_shown_do_not_count(self):
+        paint = fake.Node("VERTEX_COLOR", outputs=("Color",), layer_name="Paint")
+        for share, expected in ((0.0, ["Paint"]), (1.0, [])):
+            shown = self.material(fake.mix(share, diffuse(paint), fake.principled(Base_Color=RED)))[1].shown["M"]
+            self.assertEqual(vertex_colors.attributes_at(shown), (expected, []))
 
     def test_the_light_of_a_branch_that_is_not_shown_goes(self):
         shader = fake.principled(Base_Color=RED, Emission=RED, Emission_Strength=2.0)

@@ -165,7 +165,11 @@ def mend_surfaces(gltf: Gltf, written: Written, override: Any, names: dict[Any, 
         glb_materials.override(document, names[override])
         if len(document["materials"]) > len(gltf.materials):
             gltf.materials.append(override)
-    uses = [tuple(map(bool, vertex_colors.attributes_of(item))) if item is not None else (False, False) for item in gltf.materials]
+    def attributes(item: Any) -> tuple[list[str], list[str]]:
+        shown = written.shown.get(names.get(item))
+        return vertex_colors.attributes_of(item) if shown is None else vertex_colors.attributes_at(shown)
+
+    uses = [tuple(map(bool, attributes(item))) if item is not None else (False, False) for item in gltf.materials]
     for number in glb.keep_vertex_colors(document, uses):
         written.note(f"material '{document['materials'][number]['name']}': the alpha of vertex colours is brought over with their "
                      "colour alone")

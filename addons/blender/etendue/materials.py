@@ -117,6 +117,7 @@ class Reader:
                  "ADD_SHADER": self.add, "BSDF_TRANSPARENT": self.transparent, "BSDF_DIFFUSE": self.diffuse,
                  "BSDF_TRANSLUCENT": self.translucent, "BSDF_GLASS": self.glass, "BSDF_REFRACTION": self.glass,
                  "SUBSURFACE_SCATTERING": self.wax, "HOLDOUT": self.holdout, **{kind: self.glossy for kind in GLOSSY}}
+        self.written.shown.setdefault(self.name, []).append(shader)
         if shader.type in known:
             return known[shader.type](shader)
         self.note(f"its node '{shader.name}' is not brought over, and shown as a matte surface")

@@ -25,10 +25,13 @@ def attributes_of(material: Any) -> tuple[list[str], list[str]]:
         return [], []
     output = active_output(material.node_tree, "OUTPUT_MATERIAL")
     surface = Seen(output).source("Surface") if output is not None else None
-    if surface is None:
-        return [], []
-    shaders = [seen for seen in all_behind(surface) if seen.type.startswith("BSDF_") or seen.type == "SUBSURFACE_SCATTERING"]
-    return attributes_before(shaders, COLORS), attributes_before(shaders, ALPHAS)
+    return attributes_at(all_behind(surface)) if surface is not None else ([], [])
+
+
+def attributes_at(shaders: Iterable[Seen]) -> tuple[list[str], list[str]]:
+    """Returns those of shaders."""
+    lit = [seen for seen in shaders if seen.type.startswith("BSDF_") or seen.type == "SUBSURFACE_SCATTERING"]
+    return attributes_before(lit, COLORS), attributes_before(lit, ALPHAS)
 
 
 def chosen(mesh: Any) -> int | None:

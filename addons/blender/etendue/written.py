@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from .nodes import Seen
+
 Document = dict[str, Any]
 
 
@@ -32,6 +34,7 @@ class Written:
     unbumped: set[str] = field(default_factory=set)  # whose normal map is a height map
     bare: set[str] = field(default_factory=set)  # whose surface the exporter has taken from a shader that is not shown
     dark: set[str] = field(default_factory=set)  # whose light it has taken from such a one
+    shown: dict[str, list[Seen]] = field(default_factory=dict)  # the shaders that are read
     left_out: set[str] = field(default_factory=set)  # whose surfaces are not there
     notes: list[str] = field(default_factory=list)
 
