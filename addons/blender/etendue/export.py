@@ -71,16 +71,18 @@ def bytes_of(image: Any) -> tuple[bytes, str]:
     return image_bytes(image, Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None)
 
 
-def uv_sets(items: Iterable[Any], names: dict[Any, str]) -> Callable[[str, str], int]:
-    """Returns a function that has the number of a UV map on the first mesh that has it and a material, by their names; an
-    empty name is for the map that is rendered."""
-    layers = [({names.get(slot.material.original) for slot in item.material_slots if slot.material is not None},
+def uv_sets(items: Iterable[Any], names: dict[Any, str], override: Any, written: Written) -> Callable[[str, str], int]:
+    """Returns a function that has the number of a UV map on the meshes that have a material, by their names; an empty name is
+    for the map that is rendered."""
+    layers = [({names.get(material.original) for slot in item.material_slots if (material := override or slot.material)},
                item.data.uv_layers) for item in items if item.type == "MESH"]
 
     def number(material: str, uv_map: str) -> int:
-        found = (index for used, maps in layers if material in used for index, layer in enumerate(maps)
-                 if (layer.name == uv_map if uv_map else layer.active_render))
-        return next(found, 0)
+        found = {index for used, maps in layers if material in used for index, layer in enumerate(maps)
+                 if (layer.name == uv_map if uv_map else layer.active_render)}
+        if len(found) > 1:
+            written.note(f"material '{material}': the UV map of its image has another place on some meshes, and is wrong on those")
+        return min(found, default=0)
 
     return number
 
@@ -165,6 +167,7 @@ def mend_surfaces(gltf: Gltf, written: Written, override: Any, names: dict[Any, 
         glb_materials.override(document, names[override])
         if len(document["materials"]) > len(gltf.materials):
             gltf.materials.append(override)
+
     def attributes(item: Any) -> tuple[list[str], list[str]]:
         shown = written.shown.get(names.get(item))
         return vertex_colors.attributes_of(item) if shown is None else vertex_colors.attributes_at(shown)
@@ -223,7 +226,8 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     written.notes += overlooked.lost(scene, document, gltf.tree, rendered, surfaces, gltf.materials, brought, override)
     written.notes += overlooked.notes(rendered.items.values(), view_layer)
     mend_surfaces(gltf, written, override, names)
-    binary = glb_materials.mend(document, gltf.binary, written, bytes_of, uv_sets(rendered.items.values(), names))
+    uv_set = uv_sets(rendered.items.values(), names, override, written)
+    binary = glb_materials.mend(document, gltf.binary, written, bytes_of, uv_set)
     origins = own_materials(document, written, rendered, view_layer, scene.etendue.integrator, names)
     glb.write_glb(file, document, glb.add_motion(document, binary, gltf.times, gltf.motions))
     result = Exported(folder, gltf=document, notes=written.notes,
