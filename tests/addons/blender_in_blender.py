@@ -104,8 +104,8 @@ def draw_all():
     camera.type = "PANO"
     for kind in ("POINT", "SUN", "SPOT", "AREA"):
         lamp.type = kind
-        context = SimpleNamespace(scene=bpy.context.scene, view_layer=bpy.context.view_layer, object=bpy.context.object, world=world,
-                                  light=bpy.data.lights["L"], camera=camera, engine="ETENDUE")
+        context = SimpleNamespace(scene=bpy.context.scene, view_layer=bpy.context.view_layer, object=bpy.context.object,
+                                  world=world, light=bpy.data.lights["L"], camera=camera, engine="ETENDUE")
         for panel in own.CLASSES:
             stub = type("Stub", (own.RenderPanel,), {"layout": Layout()})()
             assert isinstance(panel.poll.__func__(panel, context), bool), panel
@@ -332,8 +332,8 @@ def artists(folder, program):
     dolly.location.x, bone.location.y, rig["control"] = 7.0, 8.0, 9.0
 
     def kept():
-        return [item.hide_viewport for item in bpy.data.objects] + [spline.resolution_u, ring.data.resolution_u, node.image == tiled] + [
-            dolly.location.x, bone.location.y, rig["control"], scene.frame_current]
+        return [item.hide_viewport for item in bpy.data.objects] + [
+            spline.resolution_u, ring.data.resolution_u, node.image == tiled, dolly.location.x, bone.location.y, rig["control"], scene.frame_current]
 
     before = kept()
     found = export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder / "scene", Path(program))
@@ -386,7 +386,8 @@ def artists(folder, program):
     export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder / "again", Path(program))
     (folder / "answer.json").write_text(json.dumps({
         "differences": differences, "stands": stands, "places": {name: len(those) for name, those in meshes.items()}, "closed": closed,
-        "mode": rig.mode, "put back": before == after and after[-4:-1] == [7.0, 8.0, 9.0], "left": [key for item in (*bpy.data.objects, *bpy.data.materials) for key in item.keys()
+        "mode": rig.mode, "put back": before == after and after[-4:-1] == [7.0, 8.0, 9.0],
+        "left": [key for item in (*bpy.data.objects, *bpy.data.materials) for key in item.keys()
                                               if key == "etendue_number"],
         "triangles": {name: accessors[primitive(name)["indices"]]["count"] // 3 for name in ("Monitor", "Eye", "Within", "Ring")},
         "colors": {name: accessors[primitive(name)["attributes"]["COLOR_0"]]["type"] if "COLOR_0" in primitive(name)["attributes"]

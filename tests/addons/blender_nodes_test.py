@@ -167,10 +167,10 @@ class Worlds(unittest.TestCase):
 
 
 class Materials(unittest.TestCase):
-    def material(self, shader, closed=True, whole=False, blend="HASHED", version=(3, 4, 0), **ends):
+    def material(self, shader, closed=True, whole=False, blend="HASHED", with_groups=False, **ends):
         result, item = Written(), fake.material("M", shader, **ends)
         item.blend_method = blend
-        return scene_settings.material(item, closed, result, whole, version=version), result
+        return scene_settings.material(item, closed, result, whole, with_groups=with_groups), result
 
     def test_nothing_becomes_white_metal(self):
         black, matte = {"diffuse": {"albedo": [0.0] * 3}}, {"diffuse": {"albedo": [0.5] * 3}}
@@ -288,11 +288,11 @@ class Materials(unittest.TestCase):
         for lost in ("'Roughness'", "'Alpha'", "'Normal'", "'Clearcoat'", "the light"):
             self.assertTrue([text for text in result.notes if lost in text], lost)
 
-    def test_exporters_since_blender_4_see_what_groups_have(self):
+    def test_newer_exporters_see_what_groups_have(self):
         picture = fake.image(space="Non-Color")
         metal = fake.Node("GROUP_INPUT", outputs=("Metal",))
         shader = fake.group(fake.principled(Base_Color=GREY, Roughness=fake.texture(picture), Metallic=metal), Metal=0.25)
-        found, result = self.material(shader, version=(4, 3, 0))
+        found, result = self.material(shader, with_groups=True)
         self.assertEqual((found, result.bare, result.notes), ({"metallic": 0.25}, set(), []))
         found, result = self.material(shader)
         self.assertEqual((found["roughness"], len(result.notes)), (0.5, 1))
@@ -351,7 +351,8 @@ class Materials(unittest.TestCase):
                 for one, other in zip(here, (u, v)):
                     self.assertAlmostEqual(one, other)
         for mapping in (fake.mapping(turn=(0.1, 0.0, 0.0)), fake.mapping(None, "NORMAL"),
-                        fake.mapping(place=fake.Node("TEX_NOISE")), fake.mapping(None, "TEXTURE", turn=(0.0, 0.0, 0.5), scale=(1.0, 2.0, 1.0))):
+                        fake.mapping(place=fake.Node("TEX_NOISE")),
+                        fake.mapping(None, "TEXTURE", turn=(0.0, 0.0, 0.5), scale=(1.0, 2.0, 1.0))):
             self.assertIsNone(textures.transform(nodes.Seen(mapping)))
             self.assertEqual(len(self.material(diffuse(fake.texture(fake.image(), mapping)))[1].notes), 1)
 
@@ -470,7 +471,8 @@ class Document(unittest.TestCase):
         light = {"emissiveFactor": [1.0] * 3, "extensions": {glb_materials.STRENGTH: {"emissiveStrength": 2.0}}}
         for bare, dark, expected in (({"A"}, set(), light), ({"A"}, {"A"}, {"extensions": {}})):
             document = self.document()
-            document["materials"][0] |= {"pbrMetallicRoughness": {"metallicFactor": 0.5}, "extras": {"mine": 1}, **copy.deepcopy(light)}
+            document["materials"][0] |= {"pbrMetallicRoughness": {"metallicFactor": 0.5}, "extras": {"mine": 1},
+                                         **copy.deepcopy(light)}
             document["materials"][0]["extensions"]["KHR_materials_ior"] = {"ior": 1.2}
             glb_materials.mend(document, b"", Written(bare=bare, dark=dark), lambda image: (b"", ""), lambda *names: 0)
             self.assertEqual(document["materials"][0], {"name": "A", "doubleSided": True, "extras": {"mine": 1}, **expected})

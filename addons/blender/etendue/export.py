@@ -12,7 +12,7 @@ import bpy
 import numpy
 
 from . import glb, glb_materials, overlooked, passes, scene_settings, textures, vertex_colors
-from .exporter import ExportError, Gltf, on_main_thread, read_gltf
+from .exporter import ExportError, Gltf, on_main_thread, read_gltf, sees_groups
 from .exr import write_exr
 from .identity import Tree, rendered_nodes, unique_names
 from .images import image_bytes
@@ -81,7 +81,7 @@ def uv_sets(items: Iterable[Any], names: dict[Any, str], override: Any, written:
         found = {index for used, maps in layers if material in used for index, layer in enumerate(maps)
                  if (layer.name == uv_map if uv_map else layer.active_render)}
         if len(found) > 1:
-            written.note(f"material '{material}': the UV map of its image has another place on some meshes, and is wrong on those")
+            written.note(f"material '{material}': on some meshes, another UV map than its own lays its image")
         return min(found, default=0)
 
     return number
@@ -218,7 +218,7 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     written = scene_settings.write(evaluated, rendered.items.values(), materials,
                                    passes.sources(passes.wanted(view_layer), scene.etendue.denoise),
                                    (gltf.times[0], gltf.times[-1]) if gltf.motions else None, camera, bpy.app.version,
-                                   view_layer, lambda item: names[item.original], override in gltf.materials)
+                                   view_layer, lambda item: names[item.original], override in gltf.materials, sees_groups())
     written.notes += gltf.notes
     if is_sheared(camera.matrix_world):
         written.note(f"camera '{camera.name}': that it is sheared by what it hangs below is not brought over")

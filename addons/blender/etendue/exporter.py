@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -138,6 +139,12 @@ def exporter() -> Any:
         raise ExportError("Blender's add-on 'glTF 2.0 format' is needed and is turned off: Edit > Preferences > Add-ons"
                           ) from None
     return bpy.ops.export_scene.gltf
+
+
+def sees_groups() -> bool:
+    """Returns whether the exporter, which has run, looks into groups of nodes: newer ones do."""
+    return any(name.startswith("io_scene_gltf2.") and hasattr(module, "get_material_nodes")
+               for name, module in list(sys.modules.items()))
 
 
 def reason_of(message: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -29,14 +28,14 @@ def matte(albedo: list[float]) -> Document:
 
 
 def material(material: Any, closed: bool, written: Written, whole: bool = False, name: str = "",
-             version: Sequence[int] = (3, 4, 0)) -> Document:
-    """The entry of `materials`: what the exporter of Blender's `version` drops of the Principled BSDF, and what can be read
-    of other shaders. `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material;
-    `name`: that in the file, where it is another."""
+             with_groups: bool = False) -> Document:
+    """The entry of `materials`: what the exporter drops of the Principled BSDF, and what can be read of other shaders.
+    `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material; `name`: that in the
+    file, where it is another; `with_groups`: the exporter sees what groups have."""
     if not material.use_nodes or material.node_tree is None:
         return matte(clamped(list(material.diffuse_color)[:3]))
     output = active_output(material.node_tree, "OUTPUT_MATERIAL")
-    seen = {} if whole else exported(material.node_tree, tuple(version) >= (4,))
+    seen = {} if whole else exported(material.node_tree, with_groups)
     reader = Reader(name or material.name, closed, written, seen)
     if output is None:
         return reader.nothing("it has no output")
@@ -57,7 +56,7 @@ def material(material: Any, closed: bool, written: Written, whole: bool = False,
 
 def exported(tree: Any, with_groups: bool) -> dict[str, tuple[str, ...]]:
     """Returns where the Principled BSDF and the Emission are that the exporter takes: the first of each that leads to the
-    active output, be it Eevee's and whatever is mixed. Exporters before Blender 4.0 see none in groups."""
+    active output, be it Eevee's and whatever is mixed."""
     outputs = [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.is_active_output]
     behind_them = [seen for node in outputs for seen in textures.all_behind(Seen(node))]
     result = {}

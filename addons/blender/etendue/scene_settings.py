@@ -175,17 +175,20 @@ def clamp(entry: Document, what: str, written: Written) -> None:
 
 def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, bool]], aovs: Sequence[str],
           moving: tuple[float, float] | None = None, camera: Any = None, version: Sequence[int] = (3, 4, 0),
-          view_layer: Any = None, name_of: Callable[[Any], str] = lambda item: item.name, override_seen: bool = False) -> Written:
+          view_layer: Any = None, name_of: Callable[[Any], str] = lambda item: item.name, override_seen: bool = False,
+          with_groups: bool = False) -> Written:
     """render.json for a scene of Blender's `version`: `objects` are those that are rendered, `materials` theirs, each with
     whether all meshes that have it are closed, `moving` the seconds in which the shutter is open. `name_of` gives the names
-    that the file has; `override_seen`: it has the material that overrides all others."""
+    that the file has; `override_seen`: it has the material that overrides all others, `with_groups`: the exporter sees
+    what groups of nodes have."""
     written = Written()
     render, settings = scene.render, scene.etendue
     camera, world = camera or scene.camera, getattr(view_layer, "world_override", None) or scene.world
     width, height = image_size(render)
     document: Document = {
         "scene": "scene.glb", "size": [width, height], "seed": settings.seed,
-        "spp": getattr(view_layer, "samples", 0) or settings.samples, "integrator": integrator_settings(settings), "film": film_settings(render, settings),
+        "spp": getattr(view_layer, "samples", 0) or settings.samples, "integrator": integrator_settings(settings),
+        "film": film_settings(render, settings),
         "color": {"working_space": REC709 if settings.working_space == "REC709" else "ACEScg", "output_space": REC709,
                   "view": "Un-tone-mapped", "exposure": 0.0},
         "camera": name_of(camera)}
@@ -221,7 +224,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     if lights:
         document["lights"] = lights
     override = getattr(view_layer, "material_override", None)
-    entries = {name_of(item): material(item, closed, written, item == override and not override_seen, name_of(item), version)
+    entries = {name_of(item): material(item, closed, written, item == override and not override_seen, name_of(item), with_groups)
                for item, closed in materials}
     entries = {name: entry for name, entry in entries.items() if entry}
     if entries:
