@@ -333,7 +333,8 @@ def artists(folder, program):
 
     def kept():
         return [item.hide_viewport for item in bpy.data.objects] + [
-            spline.resolution_u, ring.data.resolution_u, node.image == tiled, dolly.location.x, bone.location.y, rig["control"], scene.frame_current]
+            spline.resolution_u, ring.data.resolution_u, node.image == tiled, dolly.location.x, bone.location.y,
+            rig["control"], scene.frame_current]
 
     before = kept()
     found = export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder / "scene", Path(program))
