@@ -126,6 +126,7 @@ TEST_F(Compare, TheNextComparisonTakesAPooledReference) {
 }
 
 TEST_F(Compare, KeepsImagesThatItHasNotMade) {
+    fs::create_directories(work_ / "report");
     write_grey("report/reference.exr");
     const Names one{"--spp", "1", "--seeds", "1", "--integrators", "path", "--strategies-depth", "0"};
     ASSERT_EQ(compare(one).exit_code, 0);
