@@ -62,7 +62,8 @@ void pass_through(Subpath& subpath, const Vertex& vertex) {
 bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex, SubpathDensities densities,
                         int bounce, std::vector<SubpathVertex>& vertices) {
     // The camera sees something else in the place of the surface.
-    if (subpath.end == SubpathEnd::AtEye && subpath.index == kDirectlySeen && vertex.surface.material->seen_as != SeenAs::Surface)
+    if (subpath.end == SubpathEnd::AtEye && subpath.index == kDirectlySeen &&
+        vertex.surface.material->seen_as != SeenAs::Surface)
         return false;
     const bool is_clear = vertex.surface.material->is_clear;
     bool ends_here = subpath.edges >= sample.lengths.max_depth;

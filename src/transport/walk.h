@@ -81,7 +81,8 @@ struct VertexNumbers {
 [[nodiscard]] Hit nearest_hit(const World& world, const EyePath& path);
 /// Returns whether the camera sees a shadow or a hole in the place of `vertex`, where the path has arrived.
 [[nodiscard]] inline bool is_replaced(const EyePath& path, const Vertex& vertex) {
-    return path.is_seen() && vertex.kind == Vertex::Kind::Surface && vertex.surface.material->seen_as != SeenAs::Surface;
+    return path.is_seen() && vertex.kind == Vertex::Kind::Surface &&
+           vertex.surface.material->seen_as != SeenAs::Surface;
 }
 /// Returns the share of light, [0, 1], that passes what lies within the length of `ray`; `tracer` may be null.
 [[nodiscard]] Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer = nullptr,

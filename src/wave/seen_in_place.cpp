@@ -6,7 +6,7 @@
 namespace etendue {
 
 SeenInPlace seen_in_place(const World& world, const TileJob& job, const Ray& ray, const Hit& hit, const SampleKey& key,
-                       RenderCounters& counters) {
+                          RenderCounters& counters) {
     if (world.materials().at(hit)->seen_as == SeenAs::Hole) return {.alpha = 0.0f};
     OneKindTracer tracer(world, job, RayKind::Shadow, counters);
     const CaughtShadow caught = caught_shadow(world, world.geometry().surface_point(hit), -ray.direction, ray.time,

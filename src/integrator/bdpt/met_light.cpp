@@ -23,7 +23,8 @@ void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hit
 
 void MetLight::on_replaced_surface(SubpathState& state, const Ray& ray, const Hit& hit) {
     const BdptJob& job = parts_.job;
-    const SeenInPlace seen = seen_in_place(job.world(), job.job, ray, hit, job.samples[state.slot].key, parts_.counters);
+    const SeenInPlace seen =
+        seen_in_place(job.world(), job.job, ray, hit, job.samples[state.slot].key, parts_.counters);
     for (std::uint32_t i = 0; i < seen.rays; ++i) parts_.found.count_ray(state.slot);
     if (job.job.profile != nullptr) job.job.profile->use().light_samples += seen.rays;
     parts_.alpha[state.slot] = seen.alpha;
