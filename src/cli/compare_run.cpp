@@ -148,7 +148,7 @@ std::vector<std::filesystem::path> prepare_report_files(const CompareArguments& 
     std::vector<std::filesystem::path> inputs;
     if (!arguments.reference.empty()) inputs.emplace_back(arguments.reference);
     const std::filesystem::path images = std::filesystem::path(arguments.output) / kImagesDirectory;
-    std::error_code none;  // neither may be there
+    std::error_code none;  // either may be missing
     if (arguments.keep_images && !arguments.reference.empty() &&
         std::filesystem::equivalent(std::filesystem::path(arguments.reference).parent_path() / ".", images, none))
         throw UsageError(fmt::format("--reference lies in {}, whose images --keep-images replaces: move it elsewhere",

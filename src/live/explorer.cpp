@@ -135,7 +135,7 @@ RenderSettings Explorer::settings_of(const ExplorerChoice& choice) const {
         settings = scene_.settings;
     }
     overrides.apply(settings);
-    // A strategy that the scene or the command line names is one of some integrators.
+    // The scene or the command line may name a strategy that this integrator does not have.
     std::optional<Strategy>& strategy = settings.integrator.strategy;
     if (strategy && !shows_strategy(settings.integrator.type, *strategy)) strategy.reset();
     if (settings.integrator.type == kAutoIntegrator) throw UsageError("'auto' is no integrator: choose one");

@@ -167,14 +167,19 @@ class ETENDUE_OBJECT_PT_visibility(RenderPanel, bpy.types.Panel):
             column.prop(item.cycles, "use_motion_blur", text="Motion Blur")
 
 
-class ETENDUE_WORLD_PT_visibility(RenderPanel, bpy.types.Panel):
-    bl_label = "Visibility"
+class WorldPanel(RenderPanel):
+    """A panel of the scene's world, shown if there is one."""
+
     bl_context = "world"
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return super().poll(context) and context.world is not None
+
+
+class ETENDUE_WORLD_PT_visibility(WorldPanel, bpy.types.Panel):
+    bl_label = "Visibility"
 
     def draw(self, context: bpy.types.Context) -> None:
         world, column = context.world, self.column()
@@ -184,14 +189,8 @@ class ETENDUE_WORLD_PT_visibility(RenderPanel, bpy.types.Panel):
                 break
 
 
-class ETENDUE_WORLD_PT_mist(RenderPanel, bpy.types.Panel):
+class ETENDUE_WORLD_PT_mist(WorldPanel, bpy.types.Panel):
     bl_label = "Mist Pass"
-    bl_context = "world"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.world is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.column()

@@ -34,7 +34,7 @@ using NodePoses = std::map<int, NodePose>;
 
 /// The keys of one sampler.
 struct AnimationKeys {
-    std::vector<float> times;   ///< seconds, strictly increasing
+    std::vector<float> times;   ///< seconds, in order; of equal ones the last counts
     std::vector<float> values;  ///< `width` numbers a key; three times as many for cubic splines
     std::size_t width = 0;
     Interpolation interpolation = Interpolation::Linear;

@@ -79,7 +79,7 @@ const Shape* find_shape(const Json& document, const std::vector<std::string>& to
         }
         shape = step_down(*shape, token);
         if (shape == nullptr) return nullptr;
-        // What would be made for the value alone would lack what it must have: the index of a texture.
+        // An object that is made for the value alone would lack members that it must have: the index of a texture.
         if (place == nullptr &&
             std::ranges::any_of(std::span(shape->fields, shape->field_count), &ShapeField::required))
             return nullptr;

@@ -18,9 +18,11 @@ enum class TriangleMode { List = 4, Strip = 5, Fan = 6 };
 /// whole triangle are dropped.
 [[nodiscard]] std::vector<Triangle> assemble_triangles(std::span<const std::uint32_t> indices, TriangleMode mode);
 
-/// Removes triangles without an area: two equal vertices, or a height below 1e-9 of the longest side. Indices must be
-/// in range. Returns how many were removed.
+/// Returns whether a triangle has no area: two equal vertices, or a height below 1e-9 of the longest side. Indices must
+/// be in range.
 [[nodiscard]] bool is_degenerate(const Triangle& triangle, std::span<const Vec3f> positions);
+
+/// Removes the triangles that `is_degenerate`; returns how many were removed.
 std::size_t remove_degenerate_triangles(std::vector<Triangle>& triangles, std::span<const Vec3f> positions);
 
 /// Renumbers `triangles` so that every vertex is used, and returns the old number of each new vertex, ascending.
