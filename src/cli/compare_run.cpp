@@ -18,6 +18,7 @@
 #include "session/interrupt.h"
 #include "session/library_versions.h"
 #include "session/output_directory.h"
+#include "session/usage_error.h"
 
 #include <algorithm>
 #include <filesystem>

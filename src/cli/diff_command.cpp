@@ -14,6 +14,7 @@
 #include "picture/output_paths.h"
 #include "session/file_color_space.h"
 #include "session/input_files.h"
+#include "session/usage_error.h"
 
 #include <algorithm>
 #include <array>
