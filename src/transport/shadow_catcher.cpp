@@ -2,6 +2,7 @@
 
 #include "core/frame.h"
 #include "sampling/warp.h"
+#include "transport/bodies.h"
 #include "transport/connecting_ray.h"
 #include "transport/walk.h"
 
@@ -50,9 +51,10 @@ LightSample sample_environment_above(const World& world, const Vec3f& point, con
 
 }  // namespace
 
-CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const Vec3f& wo, float time,
+CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const Ray& arriving, const Interior& interior,
                            const SampleNumbers& numbers, SampleTracer* tracer) {
-    const Vec3f normal = dot(point.geometric_normal, wo) < 0.0f ? -point.geometric_normal : point.geometric_normal;
+    const bool from_front = dot(point.geometric_normal, arriving.direction) <= 0.0f;
+    const Vec3f normal = from_front ? point.geometric_normal : -point.geometric_normal;
     const LightReceiver receiver(point.position, normal);
     const std::uint32_t environment = world.environment().light();
     CaughtLight sum;
@@ -62,11 +64,12 @@ CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const 
         if (!(cosine > 0.0f) || is_black(light.radiance) || !(weight > 0.0f)) return;
         const Rgb irradiance = light.radiance * (cosine * weight);
         Ray ray = shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light);
-        ray.time = time;
+        ray.time = arriving.time;
         ray.alpha_key = alpha_key;
         ++shadow.rays;
         sum.all += static_cast<double>(average(irradiance));
-        sum.arriving += static_cast<double>(average(irradiance * visibility(world, ray, tracer)));
+        sum.arriving += static_cast<double>(
+            average(irradiance * visibility(world, ray, tracer) * transmittance(world, interior, ray, light.distance)));
     };
     const std::uint32_t alpha_key = numbers.bits(bounce_dimension(1, kAlpha));
     for (std::uint32_t round = 0; round < kCatcherSamples || (!(sum.all > 0.0) && round < kMostCatcherSamples);
@@ -88,6 +91,13 @@ CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const 
     }
     if (sum.all > 0.0) shadow.share = static_cast<float>(std::clamp(1.0 - sum.arriving / sum.all, 0.0, 1.0));
     return shadow;
+}
+
+SeenInPlace seen_in_place(const World& world, const SurfacePoint& point, const Ray& ray, const Interior& interior,
+                          const SampleNumbers& numbers, SampleTracer* tracer) {
+    if (point.material->seen_as == SeenAs::Hole) return {.is_hole = true};
+    const CaughtShadow caught = caught_shadow(world, point, ray, interior, numbers, tracer);
+    return {.passed = 1.0f - caught.share, .rays = caught.rays};
 }
 
 }  // namespace etendue

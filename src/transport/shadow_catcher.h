@@ -1,4 +1,5 @@
-// Shadow catchers: surfaces of which the camera sees how much light is taken from them, and no more.
+// What the camera sees in the place of a surface: of a shadow catcher how much light is taken from it, of a holdout
+// nothing.
 #pragma once
 
 #include "sampling/sampler.h"
@@ -19,11 +20,24 @@ struct CaughtShadow {
     std::uint32_t rays = 0;  ///< shadow rays that were traced
 };
 
-/// Returns the share that surfaces take of the direct light that would arrive at `point` without them, on the side of
-/// `wo`: 1 less the irradiance with surfaces over that without. Both are estimated from one set of samples, which goes
-/// on for a while if it finds no light; where no light would arrive, the share is 0. `tracer` traces the rays; null if
-/// the World does.
-[[nodiscard]] CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const Vec3f& wo, float time,
-                                         const SampleNumbers& numbers, SampleTracer* tracer = nullptr);
+/// Returns the share that surfaces and media take of the direct light that would arrive at `point` without them, on the
+/// side that `ray` comes from within `interior`: 1 less the irradiance with them over that without. Both are estimated
+/// from one set of samples, which goes on for a while if it finds no light; where no light would arrive, the share is
+/// 0. `tracer` traces the rays; null if the World does.
+[[nodiscard]] CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const Ray& ray,
+                                         const Interior& interior, const SampleNumbers& numbers,
+                                         SampleTracer* tracer = nullptr);
+
+/// Holds what the camera sees in the place of a surface.
+struct SeenInPlace {
+    float passed = 0.0f;     ///< share of what lies behind the whole scene that shows, [0, 1]
+    bool is_hole = false;    ///< true if nothing lies there: the sample's alpha lacks what would come through
+    std::uint32_t rays = 0;  ///< shadow rays that were traced
+};
+
+/// Returns what the camera sees where `ray`, within `interior`, has met a surface at `point` that it does not see.
+[[nodiscard]] SeenInPlace seen_in_place(const World& world, const SurfacePoint& point, const Ray& ray,
+                                        const Interior& interior, const SampleNumbers& numbers,
+                                        SampleTracer* tracer = nullptr);
 
 }  // namespace etendue

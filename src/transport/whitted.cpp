@@ -51,27 +51,29 @@ struct WhittedLight {
     void visit(const DeltaBranch& branch, NoState, const Vertex& vertex) {
         const EyePath& path = branch.path;
         if (is_replaced(path, vertex)) return see_in_place(branch, vertex);
-        const bool escapes = vertex.kind == Vertex::Kind::Environment;
-        if (escapes && path.is_seen() && world.environment().met(true).empty()) found.alpha = 0.0f;
+        if (vertex.kind == Vertex::Kind::Environment && path.is_seen()) return see_environment(path);
         if (lengths.is_long_enough(path.edges))
             (path.is_seen() ? found.seen : found.scattered) += met_light(world, path, vertex);
         if (vertex.kind == Vertex::Kind::Surface && lengths.keeps(path.edges + 1) && vertex.has_non_delta())
             found.scattered += branch_direct_light(world, branch, vertex);
     }
-    /// Adds what the camera sees in the place of a surface: of a shadow catcher the environment behind its shadow, or
-    /// the shadow as alpha; of a holdout nothing.
+    /// Adds what lies behind the whole scene: the environment, or nothing where the camera does not see that.
+    void see_environment(const EyePath& path) {
+        if (world.environment().met(true).empty())
+            found.alpha -= average(path.throughput);
+        else if (lengths.is_long_enough(path.edges))
+            found.seen += met_light(world, path, environment_vertex(path.ray.direction));
+    }
     void see_in_place(const DeltaBranch& branch, const Vertex& vertex) {
-        const EyePath& path = branch.path;
-        if (vertex.surface.material->seen_as == SeenAs::Hole) {
-            found.alpha = 0.0f;
+        EyePath path = branch.path;
+        const SeenInPlace seen =
+            seen_in_place(world, vertex.surface, path.ray, path.interior, branch.numbers, path.tracer);
+        if (seen.is_hole) {
+            found.alpha -= average(path.throughput);
             return;
         }
-        const CaughtShadow caught =
-            caught_shadow(world, vertex.surface, -path.ray.direction, path.ray.time, branch.numbers, path.tracer);
-        if (world.environment().met(true).empty())
-            found.alpha = caught.share;
-        else
-            found.seen += met_light(world, path, environment_vertex(path.ray.direction)) * (1.0f - caught.share);
+        path.throughput *= seen.passed;
+        see_environment(path);
     }
     [[nodiscard]] static NoState after(NoState state, const Vertex&, const BsdfSample&) { return state; }
 };

@@ -2,6 +2,8 @@
 
 #include "core/in_place.h"
 #include "transport/bodies.h"
+#include "transport/shadow_catcher.h"
+#include "wave/one_kind_tracer.h"
 #include "world/section_ellipse.h"
 
 #include <cmath>
@@ -41,6 +43,9 @@ void PathPlaces::set_up(const PathContext& context) {
             block_.lanes.goes_on.set(k, 1.0f);
             continue;
         }
+        if (world.traits().replaces_surfaces && path_history::is_seen(paths_.history[i]) &&
+            world.materials().is_replaced(paths_.hits[i]))
+            replace_surface(context, i);
         if (!paths_.hits[i].valid()) {
             block_.escaped.add(k);
             continue;
@@ -54,6 +59,18 @@ void PathPlaces::set_up(const PathContext& context) {
             paths_.end_path(context, block_.first + k, PathEnding::TooLong);
     }
     for (const std::size_t k : block_.escaped) paths_.end_path(context, block_.first + k, PathEnding::Escaped);
+}
+
+void PathPlaces::replace_surface(const PathContext& context, std::size_t i) {
+    const World& world = context.world;
+    OneKindTracer tracer(world, context.job, RayKind::Shadow, context.counters);
+    const Interior interior = world.traits().has_bodies ? paths_.interiors[i] : Interior();
+    const SeenInPlace seen = seen_in_place(world, world.geometry().surface_point(paths_.hits[i]), paths_.ray(i),
+                                           interior, {context.job.sequence, paths_.key(i)}, &tracer);
+    light_.count_light_samples(context.job, paths_.slot[i], seen.rays);
+    if (seen.is_hole) light_.set_alpha(paths_.slot[i], 1.0f - average(paths_.throughput[i]));
+    paths_.throughput.set(i, paths_.throughput[i] * seen.passed);
+    paths_.hits[i] = {};
 }
 
 bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {

@@ -4,7 +4,6 @@
 #include "transport/roulette.h"
 #include "wave/aov/first_hits.h"
 #include "wave/ray_batch.h"
-#include "wave/seen_in_place.h"
 
 #include <algorithm>
 #include <span>
@@ -41,10 +40,9 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
             find_first_hits(world, job, samples, camera_rays, hits, tile);
             light_.lamps().note(samples, camera_rays, hits, counters);
         }
-        if (world.traits().replaces_surfaces) replace_surfaces(world, job, counters);
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { light_.trace_shadow_rays(world, job, tile, counters); };
-        shade({world, job, settings, rays}, trace_shadow_rays);
+        shade({world, job, settings, rays, counters}, trace_shadow_rays);
         trace_shadow_rays();
     }
     light_.finish(job, count, tile, counters);
@@ -62,17 +60,6 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
             light_.count_ray(paths_.slot[i]);
         }
         if (world.traits().clips_far) hit = world.camera().cut_far(rays[i], hit);
-    }
-}
-
-void PathWave::replace_surfaces(const World& world, const TileJob& job, RenderCounters& counters) {
-    for (std::size_t i = 0; i < active_; ++i) {
-        if (!path_history::is_seen(paths_.history[i]) || !world.materials().is_replaced(paths_.hits[i])) continue;
-        const SeenInPlace seen = seen_in_place(world, job, paths_.ray(i), paths_.hits[i], paths_.key(i), counters);
-        light_.count_light_samples(job, paths_.slot[i], seen.rays);
-        light_.set_alpha(paths_.slot[i], seen.alpha);
-        paths_.throughput.set(i, paths_.throughput[i] * seen.environment);
-        paths_.hits[i] = {};
     }
 }
 

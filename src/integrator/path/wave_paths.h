@@ -22,6 +22,7 @@ struct PathContext {
     const TileJob& job;
     const IntegratorSettings& settings;
     int rays;  ///< rays that each path has traced; its edges, if the World has no bodies
+    RenderCounters& counters;
 
     /// Returns true if paths sample lights, and do not find them by chance only.
     [[nodiscard]] bool samples_lights() const { return settings.light_samples > 0; }

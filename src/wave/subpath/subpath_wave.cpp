@@ -63,12 +63,6 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
-        if (job.world().traits().replaces_surfaces && finder != nullptr)
-            for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen && job.world().materials().is_replaced(hits_[i])) {
-                    finder->on_replaced_surface(states_[i], rays_[i], hits_[i]);
-                    hits_[i] = {};
-                }
         stamp(job.job.profile, Stage::HitSetup);
         draw_numbers(job);
         stamp(job.job.profile, Stage::Numbers);
@@ -114,6 +108,12 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
         block_[k].lane = surfaces_;
         const std::size_t i = first + k;
         goes_on_[k] = world.traits().has_bodies && hits_[i].has_end() && scatter_in_medium(job, i);
+        if (world.traits().replaces_surfaces && finder != nullptr && !goes_on_[k] &&
+            states_[i].index == kDirectlySeen && world.materials().is_replaced(hits_[i])) {
+            finder->on_replaced_surface(states_[i], rays_[i], world.traits().has_bodies ? interiors_[i] : Interior(),
+                                        hits_[i]);
+            hits_[i] = {};
+        }
         if (!goes_on_[k] && set_up(job, i, block_[k])) on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
     }
     set_up_plain();

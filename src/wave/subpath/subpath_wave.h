@@ -35,7 +35,7 @@ class LightFinder {
     virtual void on_escape(const SubpathState& state, const Vec3f& direction) = 0;
     /// Hears that `ray` has hit a surface in whose place the camera sees something else. The subpath ends there, as if
     /// it had met nothing.
-    virtual void on_replaced_surface(SubpathState& state, const Ray& ray, const Hit& hit) = 0;
+    virtual void on_replaced_surface(SubpathState& state, const Ray& ray, const Interior& interior, const Hit& hit) = 0;
     /// Hears what all camera rays have met, before any other call tells of it.
     virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
     /// True if `on_emitter` is not to be told of what a camera ray has hit first.
