@@ -193,6 +193,10 @@ void ProgressiveRender::trace_photons() {
         if (!worker.scratch) worker.scratch = integrator_.make_scratch();
         TileJob job = make_job(tiles[index]);
         job.merging = merging;
+        if (options_.profile) {
+            job.profile = &options_.profile->wave(slot);
+            job.profile->clock().skip();
+        }
         const std::vector<PixelJob> pixels = photon_pixels(window, tiles[index], job.first_sample);
         if (pixels.empty()) return;
         job.pixels = pixels;
@@ -200,7 +204,7 @@ void ProgressiveRender::trace_photons() {
     });
     photon_counters_ = {};
     for (const RenderCounters& of_slot : counters) photon_counters_.add(of_slot);
-    photons_.emplace(lists, merging.radius);
+    photons_.emplace(lists, merging.radius, threads_);
 }
 
 Film* ProgressiveRender::second_film() {

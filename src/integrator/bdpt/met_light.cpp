@@ -1,8 +1,9 @@
 #include "integrator/bdpt/met_light.h"
 
+#include "transport/shadow_catcher.h"
 #include "wave/aov/first_hits.h"
+#include "wave/one_kind_tracer.h"
 #include "wave/profile/wave_profile.h"
-#include "wave/seen_in_place.h"
 
 namespace etendue {
 
@@ -21,21 +22,26 @@ void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hit
     parts_.lamps.note(parts_.job.samples, rays, hits, parts_.counters);
 }
 
-void MetLight::on_replaced_surface(SubpathState& state, const Ray& ray, const Hit& hit) {
+void MetLight::on_replaced_surface(SubpathState& state, const Ray& ray, const Interior& interior, const Hit& hit) {
     const BdptJob& job = parts_.job;
-    const SeenInPlace seen =
-        seen_in_place(job.world(), job.job, ray, hit, job.samples[state.slot].key, parts_.counters);
+    OneKindTracer tracer(job.world(), job.job, RayKind::Shadow, parts_.counters);
+    const SeenInPlace seen = seen_in_place(job.world(), job.world().geometry().surface_point(hit), ray, interior,
+                                           {job.job.sequence, job.samples[state.slot].key}, &tracer);
     for (std::uint32_t i = 0; i < seen.rays; ++i) parts_.found.count_ray(state.slot);
     if (job.job.profile != nullptr) job.job.profile->use().light_samples += seen.rays;
-    parts_.alpha[state.slot] = seen.alpha;
-    state.throughput *= seen.environment;
+    if (seen.is_hole) parts_.alpha[state.slot] = 1.0f - average(state.throughput);
+    state.throughput *= seen.passed;
+}
+
+void MetLight::count(const SubpathState& state) const {
+    WaveProfile* const profile = parts_.job.job.profile;
+    if (profile != nullptr && state.index > kDirectlySeen) ++profile->use().bsdf_met_light;
 }
 
 void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySums& sums,
                    const AovSet::Source& source) {
     const BdptJob& job = parts_.job;
     PathWords& words = parts_.eye.vertices().words();
-    if (job.job.profile != nullptr && state.index > kDirectlySeen) ++job.job.profile->use().bsdf_met_light;
     if (!job.wants({.s = 0, .t = state.index + 1})) return;
     const float share = job.weight(sums);
     shares_.clear();
@@ -52,6 +58,7 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const World& world = parts_.job.world();
     const Rgb emitted = world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
+    count(state);
     add(state, emitted, sums_of_met_lamp(parts_.job.mis, state, point, -direction, arrived),
         parts_.eye.vertices().words().surface_source(point));
 }
@@ -67,8 +74,9 @@ void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
     const World& world = parts_.job.world();
     const bool is_direct = state.index == kDirectlySeen;
     const std::span<const std::uint32_t> met = world.environment().met(is_direct);
-    // A subpath without light has met a surface that the camera does not see, which has given the sample its alpha.
-    if (is_direct && met.empty() && !is_black(state.throughput)) parts_.alpha[state.slot] = 0.0f;
+    // A subpath without light has met a holdout, which has given the sample its alpha.
+    if (is_direct && met.empty() && !is_black(state.throughput))
+        parts_.alpha[state.slot] = 1.0f - average(state.throughput);
     if (!parts_.job.lengths.is_long_enough(state.edges)) return;
     for (const std::uint32_t light : met) {
         const Rgb radiance = world.environment().radiance(light, direction);
@@ -76,6 +84,7 @@ void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
         if (light != world.environment().light() && is_black(radiance)) continue;
         StrategySums sums;
         if (!is_direct) sums = sums_from_afar(parts_.job.mis, state.from, light, direction, state.departing);
+        if (!is_black(radiance)) count(state);
         add(state, radiance, sums, parts_.eye.vertices().words().light_source(world, light));
     }
 }

@@ -19,7 +19,7 @@ class MetLight final : public LightFinder {
         SubpathWave& eye;
         LampsInView& lamps;
         SampleLight& found;
-        std::vector<float>& alpha;  ///< by slot, 0 where the eye sees nothing
+        std::vector<float>& alpha;  ///< by slot, 1 less what comes through from behind the whole scene
         TileBuffer& tile;
         RenderCounters& counters;
     };
@@ -30,13 +30,15 @@ class MetLight final : public LightFinder {
                     const SubpathDensities& arrived) override;
     void on_unlit(const SubpathState& state, const SurfacePoint& point) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
-    void on_replaced_surface(SubpathState& state, const Ray& ray, const Hit& hit) override;
+    void on_replaced_surface(SubpathState& state, const Ray& ray, const Interior& interior, const Hit& hit) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
     [[nodiscard]] bool finds_emission(const Hit& first_hit) const override {
         return parts_.lamps.finds_emission(first_hit);
     }
 
   private:
+    /// Counts for a profile that a direction which the subpath sampled has led to light.
+    void count(const SubpathState& state) const;
     /// Adds `light` to the sample of `state`, by its weight.
     void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const AovSet::Source& source);
 

@@ -182,8 +182,9 @@ void PathLight::add_environment(const PathContext& context) {
     std::array<Vec3f, kBlockLanes> directions;
     for (const std::size_t k : block_.escaped) {
         if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
-            // A path without light has met a surface that the camera does not see, which has given it its alpha.
-            if (!is_black(paths_.throughput[block_.first + k])) alpha_[paths_.slot[block_.first + k]] = 0.0f;
+            // A path without light has met a holdout, which has given it its alpha.
+            const Rgb throughput = paths_.throughput[block_.first + k];
+            if (!is_black(throughput)) alpha_[paths_.slot[block_.first + k]] = 1.0f - average(throughput);
             continue;
         }
         if (!world.traits().has_environment || !context.settings.lengths.is_long_enough(paths_.edges(block_.first + k)))
@@ -198,9 +199,13 @@ void PathLight::add_environment(const PathContext& context) {
         const std::size_t i = block_.first + meeting[m];
         const float weight = weight_from_afar(context, i, world.environment().light(), met[m].pdf_solid_angle);
         add(i, met[m].radiance * weight, paths_.words.light_source(world, world.environment().light()));
-        if (context.job.profile != nullptr && context.rays > 1 && !is_black(met[m].radiance))
-            ++context.job.profile->use().bsdf_met_light;
+        if (!is_black(met[m].radiance)) count_met_light(context, i);
     }
+}
+
+void PathLight::count_met_light(const PathContext& context, std::size_t i) const {
+    if (context.job.profile != nullptr && !path_history::is_seen(paths_.history[i]))
+        ++context.job.profile->use().bsdf_met_light;
 }
 
 void PathLight::add_suns(const PathContext& context) {
@@ -213,7 +218,7 @@ void PathLight::add_suns(const PathContext& context) {
             if (!(pdf > 0.0f) || path_history::is_seen(paths_.history[i]) ||
                 !context.settings.lengths.is_long_enough(paths_.edges(i)))
                 continue;
-            if (context.job.profile != nullptr) ++context.job.profile->use().bsdf_met_light;
+            count_met_light(context, i);
             add(i, world.environment().radiance(light, paths_.direction[i]) * weight_from_afar(context, i, light, pdf),
                 paths_.words.light_source(world, light));
         }
@@ -239,7 +244,7 @@ void PathLight::add_emission(const PathContext& context, std::size_t k) {
     const Vec3f direction = paths_.direction[i];
     const Rgb emitted = context.world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
-    if (context.job.profile != nullptr && context.rays > 1) ++context.job.profile->use().bsdf_met_light;
+    count_met_light(context, i);
     float weight = 1.0f;
     if (const std::uint32_t samples = paths_.samples_of_met_light(context, i); samples > 0)
         weight = met_light_weight(paths_.pdf_solid_angle[i],

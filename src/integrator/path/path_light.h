@@ -65,6 +65,9 @@ class PathLight {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    /// Counts for a profile that a direction which path `i` sampled has led to light.
+    void count_met_light(const PathContext& context, std::size_t i) const;
+
     /// Says which lights some paths sample; those paths are known by their places among themselves.
     struct LightChoices {
         std::array<LightTree::Choice, kBlockLanes> choices;

@@ -96,12 +96,12 @@ bool PathScattering::scatter_at_surface(const PathContext& context, std::size_t 
     const SurfacePoint& point = path.point;
     const Scattering& scattering = *path.scattering;
     const BsdfSample& sample = path.sample;
-    count_sample(context, k, sample);
-    if (is_black(sample.weight)) return false;
-    if (goes_straight_on(*point.material, sample)) {
+    if (goes_straight_on(*point.material, sample) && !is_black(sample.weight)) {
         pass_straight(context, k);
         return true;
     }
+    count_sample(context, k, sample);
+    if (is_black(sample.weight)) return false;
     if (paths_.edges(i) >= context.settings.lengths.max_depth) {
         paths_.end_path(context, block_.first + k, PathEnding::TooLong);
         return false;
