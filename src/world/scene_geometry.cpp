@@ -141,16 +141,19 @@ void SceneGeometry::for_each_clear(const Ray& ray, RayEnds ends,
     }
 }
 
+Rgb SceneGeometry::straight_share(const SurfacePoint& point, const Vec3f& wo) const {
+    Bsdf storage;
+    Rgb passed;
+    for (const BsdfSample& delta :
+         Scattering(materials_.bsdf(point, wo, 0.0f, storage), point.shading, point.geometric_normal, wo).deltas())
+        if (delta.is_transmission) passed += delta.weight;
+    return passed;
+}
+
 Rgb SceneGeometry::clear_transmittance(const Ray& ray, RayEnds ends) const {
     Rgb transmittance(1.0f);
-    const Vec3f wo = -ray.direction;
     for_each_clear(ray, ends, [&](const Hit&, const SurfacePoint& point) {
-        Bsdf storage;
-        Rgb passed;
-        for (const BsdfSample& delta :
-             Scattering(materials_.bsdf(point, wo, 0.0f, storage), point.shading, point.geometric_normal, wo).deltas())
-            if (delta.is_transmission) passed += delta.weight;
-        transmittance *= passed;
+        if (point.material->filling == kNone) transmittance *= straight_share(point, -ray.direction);
     });
     return transmittance;
 }

@@ -48,8 +48,10 @@ class SceneGeometry {
     /// Calls `visit` for each clear surface between the ends of `ray`, one after the other.
     void for_each_clear(const Ray& ray, RayEnds ends,
                         const std::function<void(const Hit& hit, const SurfacePoint& point)>& visit) const;
+    /// Returns the share of light, seen along `wo`, that goes straight through the clear surface at `point`.
+    [[nodiscard]] Rgb straight_share(const SurfacePoint& point, const Vec3f& wo) const;
     /// Returns the share of light that passes the clear surfaces between the ends of `ray`, which may be anything along
-    /// which nothing else lies; without what media absorb between them.
+    /// which nothing else lies; without boundaries of bodies, which `Media::transmittance` knows with what fills them.
     [[nodiscard]] Rgb clear_transmittance(const Ray& ray, RayEnds ends = RayEnds::InScene) const;
     /// Returns the seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look
     /// at what they hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
