@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,9 +43,12 @@ class PilotFilm {
     PilotFilm(int width, int height)
         : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-    [[nodiscard]] std::size_t pixel_at(const Vec2f& film) const {
+    /// Returns the pixel at `film`; nothing if that is beside the image.
+    [[nodiscard]] std::optional<std::size_t> pixel_at(const Vec2f& film) const {
+        const bool is_inside = film.x >= 0.0f && film.x < 1.0f && film.y >= 0.0f && film.y < 1.0f;
+        if (!is_inside) return {};
         const auto place = [](float along, int count) {
-            return std::clamp(static_cast<int>(along * static_cast<float>(count)), 0, count - 1);
+            return std::min(static_cast<int>(along * static_cast<float>(count)), count - 1);
         };
         return static_cast<std::size_t>(place(film.y, height_)) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(place(film.x, width_));
@@ -156,12 +160,12 @@ SampleWork take_samples(const World& world, const IntegratorSettings& settings, 
         for (const ComparedSample::Photons& of_row : of_rows) photons.append(of_row);
     }
     std::vector<std::vector<Photon>> lists(1, photons.all);
-    const PhotonMap map(std::move(lists), job.merging.radius);
+    const PhotonMap map(std::move(lists), job.merging.radius, threads);
     std::vector<RowFindings> rows(height);
     for_each_row([&](std::size_t row, std::size_t i) {
         rows[row].of_samples.push_back(
             compared(i).compare(map, photons, rows[row].work, [&](const ComparedLight& light, const Vec2f& place) {
-                rows[row].from_lights.emplace_back(film.pixel_at(place), light);
+                if (const auto pixel = film.pixel_at(place)) rows[row].from_lights.emplace_back(*pixel, light);
             }));
     });
     SampleWork work;

@@ -14,7 +14,7 @@ namespace etendue {
 
 /// Holds light that a path brings to a place on the film.
 struct FilmLight {
-    Vec2f film{0.0f, 0.0f};  ///< in [0, 1]², as CameraConnection::film
+    Vec2f film{0.0f, 0.0f};  ///< as CameraConnection::film: [0, 1]² is the image, and places beside it are beyond
     Rgb value;               ///< share in the integral over the film of area 1
 };
 
@@ -25,8 +25,8 @@ struct LensView {
     float distance = 0.0f;  ///< metres
 };
 
-/// Returns how the camera sees `position` through the lens point made from `lens` in [0, 1)²; nothing if the film does
-/// not show it.
+/// Returns how the camera sees `position` through the lens point made from `lens` in [0, 1)²; nothing if no film,
+/// however large, would show it.
 [[nodiscard]] std::optional<LensView> view_from_lens(const World& world, const Vec3f& position, Vec2f lens, float time);
 
 /// Returns what a light subpath brings to the film from where it begins, at a lamp in view, times `weigh(view, cosine)`
