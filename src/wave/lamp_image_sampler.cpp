@@ -54,6 +54,14 @@ struct LampCollector {
     }
 };
 
+/// Returns true if one of the `pixels` takes sample number `index`.
+bool takes_any(const PixelRect& pixels, std::uint32_t index, const LampImageSampler::HasSample& has_sample) {
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+        for (int x = pixels.x0; x < pixels.x1; ++x)
+            if (has_sample({x, y}, index)) return true;
+    return false;
+}
+
 }  // namespace
 
 DeltaBranch branch_along(const World& world, const TileJob& job, const Ray& ray, SampleKey key, SampleTracer* tracer) {
@@ -113,7 +121,7 @@ void LampImageSampler::sample(std::uint32_t first, std::uint32_t end, const HasS
                                        static_cast<int>(std::floor(film.x + radius - 0.5f)) + 1,
                                        static_cast<int>(std::floor(film.y + radius - 0.5f)) + 1};
                 const PixelRect pixels = intersection(around, rect);
-                if (pixels.empty()) continue;
+                if (!takes_any(pixels, index, has_sample)) continue;
                 seen_.clear();
                 look_for_lamps(*world_, branch_through(*world_, *job_, film, key, &tracer), lengths_, words_, seen_);
                 if (seen_.empty()) continue;
