@@ -12,6 +12,9 @@ namespace etendue {
 
 namespace {
 
+/// Bounds the parts of a map that threads sort apart: 2 to this power.
+constexpr int kPartBits = 6;
+
 /// Returns the grid for kernels of this radius, metres: the exponent of the power of two at or below it.
 int grid_of(float radius) {
     return std::ilogb(radius);
@@ -35,32 +38,70 @@ std::uint32_t hash_of_cell(int grid, std::int32_t x, std::int32_t y, std::int32_
 
 }  // namespace
 
-PhotonMap::PhotonMap(std::vector<std::vector<Photon>> lists, const MergeRadius& radius) : radius_(radius) {
-    std::size_t total = 0;
-    for (const std::vector<Photon>& list : lists) total += list.size();
-    if (total == 0) return;
-    mask_ = std::bit_ceil(static_cast<std::uint32_t>(total)) - 1;
-    begin_.assign(static_cast<std::size_t>(mask_) + 2, 0);
-    photons_.reserve(total);
-    for (std::vector<Photon>& list : lists) {
-        for (const Photon& photon : list) ++begin_[bucket_of(photon.position) + 1];
-        photons_.insert(photons_.end(), list.begin(), list.end());
-        list = {};
+PhotonMap::PhotonMap(std::vector<std::vector<Photon>> lists, const MergeRadius& radius, const ThreadPool& threads)
+    : radius_(radius) {
+    for (const std::vector<Photon>& list : lists) size_ += list.size();
+    if (size_ == 0) return;
+    mask_ = std::bit_ceil(static_cast<std::uint32_t>(size_)) - 1;
+    begin_.resize(static_cast<std::size_t>(mask_) + 2);
+    begin_.back() = static_cast<std::uint32_t>(size_);
+    photons_ = {std::allocator<Photon>().allocate(size_), FreePhotons{size_}};
+    const int bits = std::max(0, static_cast<int>(std::bit_width(mask_)) - kPartBits);
+    const std::vector<std::uint32_t> parts = sort_into_parts(lists, bits, threads);
+    threads.parallel_for(parts.size() - 1, [&](std::size_t part, int) {
+        sort_part(static_cast<std::uint32_t>(part), bits, parts[part], parts[part + 1]);
+    });
+}
+
+std::vector<std::uint32_t> PhotonMap::sort_into_parts(std::vector<std::vector<Photon>>& lists, int bits,
+                                                      const ThreadPool& threads) {
+    const std::size_t parts = (mask_ >> bits) + 1;
+    const auto part_of = [&](const Photon& photon) { return bucket_of(photon.position) >> bits; };
+    // How many photons of each list go to each part, and then where the first of them goes: list after list.
+    std::vector<std::uint32_t> places(parts * lists.size(), 0);
+    threads.parallel_for(lists.size(), [&](std::size_t list, int) {
+        const std::span row = std::span(places).subspan(list * parts, parts);
+        for (const Photon& photon : lists[list]) ++row[part_of(photon)];
+    });
+    std::vector<std::uint32_t> begins;
+    std::uint32_t before = 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+        begins.push_back(before);
+        for (std::size_t list = 0; list < lists.size(); ++list)
+            before += std::exchange(places[list * parts + part], before);
     }
-    for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+    begins.push_back(before);
+    threads.parallel_for(lists.size(), [&](std::size_t list, int) {
+        const std::span row = std::span(places).subspan(list * parts, parts);
+        for (const Photon& photon : lists[list]) std::construct_at(&photons_[row[part_of(photon)]++], photon);
+        lists[list] = {};
+    });
+    return begins;
+}
+
+void PhotonMap::sort_part(std::uint32_t part, int bits, std::uint32_t first, std::uint32_t end) {
+    const std::uint32_t first_bucket = part << bits;
+    std::vector<std::uint32_t> next(std::size_t{1} << bits, 0);
+    for (std::uint32_t p = first; p < end; ++p) ++next[bucket_of(photons_[p].position) - first_bucket];
+    std::uint32_t before = first;
+    for (std::size_t b = 0; b < next.size(); ++b) {
+        begin_[first_bucket + b] = before;
+        before += std::exchange(next[b], before);
+    }
     // Each photon is swapped to the next free place of its bucket, until the one that lies here belongs here.
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t b = 0; b <= mask_; ++b)
-        while (next[b] < begin_[b + 1]) {
+    for (std::size_t b = 0; b < next.size(); ++b) {
+        const std::uint32_t end_of_bucket = b + 1 < next.size() ? begin_[first_bucket + b + 1] : end;
+        while (next[b] < end_of_bucket) {
             Photon& here = photons_[next[b]];
-            const std::uint32_t bucket = bucket_of(here.position);
+            const std::uint32_t bucket = bucket_of(here.position) - first_bucket;
             if (bucket != b) std::swap(here, photons_[next[bucket]]);
             ++next[bucket];
         }
+    }
 }
 
 std::size_t PhotonMap::bytes() const {
-    return vector_bytes(begin_, photons_);
+    return vector_bytes(begin_) + size_ * sizeof(Photon);
 }
 
 std::uint32_t PhotonMap::bucket_of(const Vec3f& position) const {

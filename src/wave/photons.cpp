@@ -39,7 +39,7 @@ std::vector<PixelJob> photon_pixels(const PixelRect& window, const PixelRect& ti
     return pixels;
 }
 
-SharedPhotons::SharedPhotons(std::span<PhotonList> lists, const MergeRadius& radius)
-    : words_(gather_words(lists)), map_(take_photons(lists), radius) {}
+SharedPhotons::SharedPhotons(std::span<PhotonList> lists, const MergeRadius& radius, const ThreadPool& threads)
+    : words_(gather_words(lists)), map_(take_photons(lists), radius, threads) {}
 
 }  // namespace etendue

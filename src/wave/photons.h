@@ -46,7 +46,7 @@ struct PhotonList {
 class SharedPhotons {
   public:
     /// Takes the photons of `lists` in their order, and leaves them empty.
-    SharedPhotons(std::span<PhotonList> lists, const MergeRadius& radius);
+    SharedPhotons(std::span<PhotonList> lists, const MergeRadius& radius, const ThreadPool& threads);
 
     [[nodiscard]] const PhotonMap& map() const { return map_; }
     /// Returns the words that the photons' ranges are of.

@@ -194,7 +194,7 @@ OracleComparison compare_with_oracle(const World& world, const OracleRun& run) {
         if (job.merging.merges()) {
             PhotonList list = wide_photons(world, *integrator, job);
             photons = list.photons;
-            job.photons = &shared.emplace(std::span(&list, 1), job.merging.radius);
+            job.photons = &shared.emplace(std::span(&list, 1), job.merging.radius, ThreadPool(1));
         }
         const FoundLight wide = wide_samples(world, *integrator, job);
         const FoundLight scalar = scalar_samples(world, run, job);

@@ -36,7 +36,7 @@ std::vector<std::vector<Photon>> some_photons(Random& random, std::size_t lists,
 TEST(PhotonMap, FindsEachPhotonOfAKernelOnce) {
     Random random(1);
     const std::vector<std::vector<Photon>> lists = some_photons(random, 7, 900);
-    const PhotonMap map(lists, kRadius);
+    const PhotonMap map(lists, kRadius, ThreadPool(2));
     EXPECT_EQ(map.size(), 6300u);
     std::size_t found = 0;
     for (int i = 0; i < 500; ++i) {
@@ -56,7 +56,7 @@ TEST(PhotonMap, FindsEachPhotonOfAKernelOnce) {
 }
 
 TEST(PhotonMap, OfNoPhotonsFindsNone) {
-    const PhotonMap map({}, kRadius);
+    const PhotonMap map({}, kRadius, ThreadPool(1));
     map.for_each_in({{}, {0, 1, 0}, 1.0f}, [](const Photon&) { FAIL(); });
     EXPECT_EQ(map.size(), 0u);
 }
