@@ -5,8 +5,10 @@
 #include "wave/bright_sample.h"
 #include "wave/ray_kind.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace etendue {
@@ -16,22 +18,31 @@ struct RenderCounters {
     RaysByKind rays;
     std::uint64_t samples = 0;
     std::uint64_t dropped = 0;
-    std::vector<DroppedSample> first_dropped;  ///< at most kMaxLocated
+    std::vector<DroppedSample> first_dropped;  ///< at most kMaxLocated, the first by sample and place
     BrightestSamples brightest;
 
     static constexpr std::size_t kMaxLocated = 8;
 
     void drop(const DroppedSample& sample) {
         ++dropped;
-        if (first_dropped.size() < kMaxLocated) first_dropped.push_back(sample);
+        keep(sample);
     }
     void add(const RenderCounters& other) {
         rays.add(other.rays);
         samples += other.samples;
         dropped += other.dropped;
-        for (const DroppedSample& sample : other.first_dropped)
-            if (first_dropped.size() < kMaxLocated) first_dropped.push_back(sample);
+        for (const DroppedSample& sample : other.first_dropped) keep(sample);
         brightest.add(other.brightest);
+    }
+
+  private:
+    void keep(const DroppedSample& sample) {
+        const auto order = [](const DroppedSample& dropped) {
+            return std::tuple(dropped.sample, dropped.y, dropped.x);
+        };
+        const auto place = std::ranges::upper_bound(first_dropped, order(sample), {}, order);
+        first_dropped.insert(place, sample);
+        if (first_dropped.size() > kMaxLocated) first_dropped.pop_back();
     }
 };
 
