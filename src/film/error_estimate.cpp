@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 namespace etendue {
 
@@ -65,11 +66,15 @@ double ErrorEstimate::relative_error() const {
     return std::sqrt(eye_mean + light);
 }
 
-double image_scale(const Film& film) {
+double image_scale(const Film& film, const ThreadPool& threads) {
     const PixelRect& window = film.window();
-    std::vector<double> blocks;
-    for (int y0 = window.y0; y0 < window.y1; y0 += kBlock)
-        for (int x0 = window.x0; x0 < window.x1; x0 += kBlock) {
+    const auto columns = static_cast<std::size_t>((window.width() + kBlock - 1) / kBlock);
+    const auto rows = static_cast<std::size_t>((window.height() + kBlock - 1) / kBlock);
+    std::vector<double> blocks(columns * rows);
+    threads.parallel_for(rows, [&](std::size_t row, int) {
+        for (std::size_t column = 0; column < columns; ++column) {
+            const int x0 = window.x0 + kBlock * static_cast<int>(column);
+            const int y0 = window.y0 + kBlock * static_cast<int>(row);
             const PixelRect block{x0, y0, std::min(x0 + kBlock, window.x1), std::min(y0 + kBlock, window.y1)};
             double sum = 0.0;
             for (int y = block.y0; y < block.y1; ++y)
@@ -78,9 +83,11 @@ double image_scale(const Film& film) {
                     const Means light = film.light_mean(x, y);
                     for (std::size_t c = 0; c < 3; ++c) sum += eye[c] + light[c];
                 }
-            // Filters with negative parts make negative ones.
-            if (sum > 0.0) blocks.push_back(sum / (3.0 * static_cast<double>(block.area())));
+            blocks[row * columns + column] = sum / (3.0 * static_cast<double>(block.area()));
         }
+    });
+    // Filters with negative parts make negative ones.
+    std::erase_if(blocks, [](double mean) { return !(mean > 0.0); });
     if (blocks.empty()) return 0.0;
     // Roots of numbers near 1, so that they are the same whatever power of two the light is multiplied by.
     const int exponent = std::ilogb(std::ranges::max(blocks));
@@ -90,16 +97,22 @@ double image_scale(const Film& film) {
     return std::ldexp(mean * mean, exponent);
 }
 
-ErrorEstimate estimate_errors(const Film& whole, const Film& part) {
+ErrorEstimate estimate_errors(const Film& whole, const Film& part, const ThreadPool& threads) {
     assert(whole.window() == part.window());
     const PixelRect& window = whole.window();
-    const double scale = image_scale(whole);
+    const double scale = image_scale(whole, threads);
     // Of black nothing, any number will do.
     const double dark = scale > 0.0 ? kDarkShare * kDarkShare * scale * scale : 1.0;
     const bool unseen_is_of_light = whole.light_paths() > 0 && !has_eye_light(whole);
-    ErrorEstimate errors;
-    errors.eye.reserve(window.area());
-    for (int y = window.y0; y < window.y1; ++y)
+    const auto width = static_cast<std::size_t>(window.width());
+    const auto height = static_cast<std::size_t>(window.height());
+    ErrorEstimate errors{.eye = std::vector<float>(window.area())};
+    std::vector<double> light_of_rows(height, 0.0);
+    std::vector<double> eye_of_rows(height, 0.0);
+    threads.parallel_for(height, [&](std::size_t row, int) {
+        const int y = window.y0 + static_cast<int>(row);
+        double eye_of_row = 0.0;
+        double light_of_row = 0.0;
         for (int x = window.x0; x < window.x1; ++x) {
             const std::uint64_t samples = whole.sample_count(x, y);
             const Halves eye(whole.eye_mean(x, y), part.eye_mean(x, y), part.sample_count(x, y), samples);
@@ -108,15 +121,22 @@ ErrorEstimate estimate_errors(const Film& whole, const Film& part) {
             for (std::size_t c = 0; c < 3; ++c)
                 square[c] = std::max(0.0, (eye.part[c] + light.part[c]) * (eye.other[c] + light.other[c])) + dark;
             double of_eye = eye.relative_square(square);
-            errors.light += light.relative_square(square);
+            double of_light = light.relative_square(square);
             if (eye.odds > 0.0 && !eye.differ() && !light.differ()) {
                 const Means value{eye.whole[0] + light.whole[0], eye.whole[1] + light.whole[1],
                                   eye.whole[2] + light.whole[2]};
-                (unseen_is_of_light ? errors.light : of_eye) += unseen_square(value, scale, dark, samples);
+                (unseen_is_of_light ? of_light : of_eye) += unseen_square(value, scale, dark, samples);
             }
-            errors.eye.push_back(static_cast<float>(of_eye));
-            errors.eye_mean += of_eye;
+            errors.eye[row * width + static_cast<std::size_t>(x - window.x0)] = static_cast<float>(of_eye);
+            eye_of_row += of_eye;
+            light_of_row += of_light;
         }
+        eye_of_rows[row] = eye_of_row;
+        light_of_rows[row] = light_of_row;
+    });
+    // Row by row, so that any number of threads comes to the same sums.
+    errors.eye_mean = std::accumulate(eye_of_rows.begin(), eye_of_rows.end(), 0.0);
+    errors.light = std::accumulate(light_of_rows.begin(), light_of_rows.end(), 0.0);
     const auto area = static_cast<double>(window.area());
     errors.eye_mean /= area;
     errors.light /= area;

@@ -1,6 +1,7 @@
 // How far an image is from what it would be with samples without end, from two parts of its own samples.
 #pragma once
 
+#include "core/parallel.h"
 #include "film/film.h"
 
 #include <vector>
@@ -12,7 +13,7 @@ namespace etendue {
 /// lamp in the picture, or a firefly, count for little of what it has; blocks know how bright pixels are that few
 /// samples have found light in; and what is black around a picture does not make it a darker one. 0 if all is black.
 /// Twice the light is exactly twice the scale.
-[[nodiscard]] double image_scale(const Film& film);
+[[nodiscard]] double image_scale(const Film& film, const ThreadPool& threads);
 
 /// Values below this share of the image's scale are measured against the scale rather than against themselves.
 inline constexpr double kDarkShare = 0.5;
@@ -43,7 +44,7 @@ struct ErrorEstimate {
 };
 
 /// Errors of the pixels of `whole`, of whose samples and light paths `part` holds some; both films have one window. A
-/// pixel of which `part` holds none or all counts as free of error.
-[[nodiscard]] ErrorEstimate estimate_errors(const Film& whole, const Film& part);
+/// pixel of which `part` holds none or all counts as free of error. The result is the same for any number of threads.
+[[nodiscard]] ErrorEstimate estimate_errors(const Film& whole, const Film& part, const ThreadPool& threads);
 
 }  // namespace etendue

@@ -26,22 +26,25 @@ struct Reach {
 };
 
 /// Sums over the box around every pixel.
-std::vector<double> box_sums(std::span<const float> values, int width, int height) {
+std::vector<double> box_sums(std::span<const float> values, int width, int height, const ThreadPool& threads) {
     const auto at = [&](int x, int y) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     };
     std::vector<double> along_x(values.size(), 0.0);
     std::vector<double> sums(values.size(), 0.0);
-    for (int y = 0; y < height; ++y)
+    threads.parallel_for(static_cast<std::size_t>(height), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
         for (int x = 0; x < width; ++x) {
             const Reach reach(x, width);
             for (int i = reach.begin; i < reach.end; ++i) along_x[at(x, y)] += static_cast<double>(values[at(i, y)]);
         }
-    for (int y = 0; y < height; ++y) {
+    });
+    threads.parallel_for(static_cast<std::size_t>(height), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
         const Reach reach(y, height);
         for (int i = reach.begin; i < reach.end; ++i)
             for (int x = 0; x < width; ++x) sums[at(x, y)] += along_x[at(x, i)];
-    }
+    });
     return sums;
 }
 
@@ -120,13 +123,14 @@ void activate(AdaptivePass& pass, std::size_t pixels, const Predicate& is_wanted
 
 }  // namespace
 
-std::vector<float> variance_around(std::span<const float> variance, int width, int height) {
-    const std::vector<double> sums = box_sums(variance, width, height);
-    std::vector<float> around;
-    around.reserve(variance.size());
-    for (int y = 0; y < height; ++y)
+std::vector<float> variance_around(std::span<const float> variance, int width, int height, const ThreadPool& threads) {
+    const std::vector<double> sums = box_sums(variance, width, height, threads);
+    std::vector<float> around(variance.size());
+    threads.parallel_for(static_cast<std::size_t>(height), [&](std::size_t row, int) {
+        const int y = static_cast<int>(row);
         for (int x = 0; x < width; ++x) {
-            const auto own = static_cast<double>(variance[around.size()]);
+            const std::size_t pixel = row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            const auto own = static_cast<double>(variance[pixel]);
             double largest = 0.0;
             for (int j = std::max(0, y - kDilation); j < std::min(height, y + kDilation + 1); ++j)
                 for (int i = std::max(0, x - kDilation); i < std::min(width, x + kDilation + 1); ++i) {
@@ -136,8 +140,9 @@ std::vector<float> variance_around(std::span<const float> variance, int width, i
                                        own;
                     if (others > 0) largest = std::max(largest, sum / others);
                 }
-            around.push_back(static_cast<float>(largest));
+            around[pixel] = static_cast<float>(largest);
         }
+    });
     return around;
 }
 
@@ -152,13 +157,13 @@ std::vector<float> sample_goals(const Allocation& allocation) {
 }
 
 AdaptivePass plan_adaptive_pass(const RenderState& state, const ErrorEstimate& errors, double relative_error,
-                                std::uint32_t most) {
+                                std::uint32_t most, const ThreadPool& threads) {
     const PixelRect& window = state.film.window();
     std::vector<std::uint32_t> samples = state.adaptive.samples;
     if (samples.empty()) samples.assign(window.area(), state.spp_done);
     std::vector<float> variance = errors.eye;
     for (std::size_t p = 0; p < variance.size(); ++p) variance[p] *= static_cast<float>(samples[p]);
-    variance = variance_around(variance, window.width(), window.height());
+    variance = variance_around(variance, window.width(), window.height(), threads);
     const std::vector<float> goals = sample_goals({.variance = variance,
                                                    .samples = samples,
                                                    .eye_error = errors.eye_mean,

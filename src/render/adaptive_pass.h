@@ -1,6 +1,7 @@
 // Which pixels get the samples of the next pass, so that an image comes to an error with as few of them as possible.
 #pragma once
 
+#include "core/parallel.h"
 #include "film/error_estimate.h"
 #include "render/progressive_render.h"
 
@@ -15,7 +16,8 @@ namespace etendue {
 /// around it, so that an edge or a firefly wakes its neighbours. A pixel's own estimate is left out of all of them:
 /// what its samples brought must not decide how many it gets, or those that found little would end too soon and the
 /// image would be too dark.
-[[nodiscard]] std::vector<float> variance_around(std::span<const float> variance, int width, int height);
+[[nodiscard]] std::vector<float> variance_around(std::span<const float> variance, int width, int height,
+                                                 const ThreadPool& threads);
 
 /// How samples are to be shared out. One entry for each pixel.
 struct Allocation {
@@ -48,7 +50,7 @@ struct AdaptivePass {
 /// The next pass of `state`, between passes, whose error `errors` says and is to be `relative_error` with `most`
 /// samples per pixel at most.
 [[nodiscard]] AdaptivePass plan_adaptive_pass(const RenderState& state, const ErrorEstimate& errors,
-                                              double relative_error, std::uint32_t most);
+                                              double relative_error, std::uint32_t most, const ThreadPool& threads);
 
 /// A pass of those pixels that have less than `least` samples, by which none of them gets more. At least one has less.
 [[nodiscard]] AdaptivePass pass_up_to(const AdaptiveState& state, std::uint32_t least);

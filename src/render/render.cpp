@@ -21,9 +21,10 @@ using Clock = std::chrono::steady_clock;
 class ProgressReporter {
   public:
     /// `before` was rendered earlier.
-    ProgressReporter(const ProgressCallback& callback, std::uint64_t total_samples, const RenderState& before)
+    ProgressReporter(const ProgressCallback& callback, const RenderOptions& options, const RenderState& before)
         : callback_(callback),
-          total_samples_(total_samples),
+          total_samples_(static_cast<double>(options.window.area()) * options.spp),
+          time_limit_(options.time_limit_seconds),
           seconds_before_(before.wall_seconds),
           samples_(before.counters.samples),
           rays_(before.counters.rays.total()) {}
@@ -35,23 +36,26 @@ class ProgressReporter {
         rays_ += rays;
         if (seconds_since(last_report_) < 0.1) return;
         last_report_ = Clock::now();
-        report();
+        report(false);
     }
-    void finish() {
+    void finish(bool is_complete) {
         if (!callback_) return;
         const std::scoped_lock lock(mutex_);
-        report();
+        report(is_complete);
     }
 
   private:
-    void report() {
+    void report(bool is_complete) {
+        const double seconds = seconds_before_ + seconds_since(start_);
+        double fraction = static_cast<double>(samples_) / total_samples_;
+        if (time_limit_ > 0.0) fraction = std::max(fraction, seconds / time_limit_);
         // What is gone on with may have more samples than are asked for now.
-        callback_({std::min(1.0, static_cast<double>(samples_) / static_cast<double>(total_samples_)),
-                   seconds_before_ + seconds_since(start_), samples_, rays_});
+        callback_({is_complete ? 1.0 : std::min(1.0, fraction), seconds, samples_, rays_});
     }
 
     const ProgressCallback& callback_;
-    const std::uint64_t total_samples_;
+    const double total_samples_;
+    const double time_limit_;
     const double seconds_before_;
     const Clock::time_point start_ = Clock::now();
     std::mutex mutex_;
@@ -61,13 +65,13 @@ class ProgressReporter {
 };
 
 /// Nothing as long as there are too few samples, or if every other pass is not kept.
-std::optional<ErrorEstimate> error_of(const RenderState& state) {
+std::optional<ErrorEstimate> error_of(const RenderState& state, const ThreadPool& threads) {
     // Estimates from a few samples would end renders by luck.
     constexpr std::uint32_t kFewest = 16;
     const std::uint32_t other = state.spp_done - state.every_other_spp;
     if (!state.every_other_pass || state.pass_size > 0 || state.every_other_spp < kFewest || other < kFewest)
         return std::nullopt;
-    return estimate_errors(state.film, *state.every_other_pass);
+    return estimate_errors(state.film, *state.every_other_pass, threads);
 }
 
 /// Why no other pass is to begin after `now`, whose error that is, if so.
@@ -94,9 +98,9 @@ struct NextStep {
     std::vector<std::uint8_t> is_active{};  ///< 1 for pixels that take part in the next pass; empty for all
 };
 
-NextStep next_step(const RenderState& now, const RenderOptions& options) {
+NextStep next_step(const RenderState& now, const RenderOptions& options, const ThreadPool& threads) {
     std::optional<ErrorEstimate> error;
-    if (options.relative_error > 0.0) error = error_of(now);
+    if (options.relative_error > 0.0) error = error_of(now, threads);
     if (const auto limit = reached_limit(now, error, options)) return {.halt = limit};
     const bool is_begun = !now.adaptive.is_uniform();
     if (!error || !options.adaptive || (now.spp_done < options.min_spp && !is_begun)) {
@@ -106,7 +110,7 @@ NextStep next_step(const RenderState& now, const RenderOptions& options) {
     // A render that is gone on with may have been adaptive from fewer samples on.
     AdaptivePass pass = now.spp_done < options.min_spp
                             ? pass_up_to(now.adaptive, std::min(options.min_spp, options.spp))
-                            : plan_adaptive_pass(now, *error, options.relative_error, options.spp);
+                            : plan_adaptive_pass(now, *error, options.relative_error, options.spp, threads);
     if (pass.active == 0) return {.halt = HaltReason::SamplesDone};
     return {.count = fitting(pass.count, pass.active, now, options), .is_active = std::move(pass.is_active)};
 }
@@ -137,14 +141,14 @@ ImageF rgba_image(const Film& film) {
 }
 
 std::optional<double> relative_error(const RenderState& state) {
-    const std::optional<ErrorEstimate> error = error_of(state);
+    const std::optional<ErrorEstimate> error = error_of(state, ThreadPool(1));
     return error ? std::optional(error->relative_error()) : std::nullopt;
 }
 
 RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                     const ThreadPool& threads, const std::atomic<bool>& stop, const ProgressCallback& progress,
                     const RenderPause& pause, RenderState state) {
-    ProgressReporter reporter(progress, options.window.area() * static_cast<std::uint64_t>(options.spp), state);
+    ProgressReporter reporter(progress, options, state);
     ProgressiveRender rendering(world, integrator, options, threads, std::move(state));
     const RenderState& now = rendering.state();
     const StopPredicate is_wanted = [&] {
@@ -162,7 +166,7 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
         }
         if (pause.is_due && pause.is_due()) pause.act(now);
         NextStep next;
-        if (now.pass_size == 0) next = next_step(now, options);
+        if (now.pass_size == 0) next = next_step(now, options, threads);
         if (next.halt) {
             halt_reason = *next.halt;
             break;
@@ -172,7 +176,7 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
         else
             rendering.add_samples_to(std::move(next.is_active), next.count, is_wanted, tile_done);
     }
-    reporter.finish();
+    reporter.finish(halt_reason != HaltReason::Interrupted);
     return {rendering.take_state(), halt_reason};
 }
 

@@ -28,8 +28,10 @@ struct RenderOptions : SamplingOptions {
 
 /// How far a render is.
 struct RenderProgress {
-    double fraction = 0.0;  ///< share of all samples that are taken, [0, 1]
-    double seconds = 0.0;   ///< seconds of rendering
+    /// Share of the samples that are taken, or of the time limit that has passed, whichever is larger, [0, 1]; 1 once
+    /// the image is complete. With a limit of the error, the render may end sooner than it says.
+    double fraction = 0.0;
+    double seconds = 0.0;  ///< seconds of rendering
     std::uint64_t samples = 0;
     std::uint64_t rays = 0;
 };

@@ -16,6 +16,8 @@ namespace etendue {
 
 namespace {
 
+const ThreadPool kErrorThreads(2);
+
 constexpr int kSide = 100;
 
 /// Adds `count` samples, evenly distributed over [0, 2) times the pixel's brightness, to every pixel of each film.
@@ -70,7 +72,7 @@ TEST(ErrorEstimate, IsTheErrorThatTheImageHas) {
         sum += std::pow(static_cast<double>(image[i]) - truth, 2.0) / (truth * truth + dark);
     }
     const double error = std::sqrt(sum / (3.0 * kSide * kSide));
-    EXPECT_NEAR(estimate_errors(whole, part).relative_error(), error, 0.05 * error);
+    EXPECT_NEAR(estimate_errors(whole, part, kErrorThreads).relative_error(), error, 0.05 * error);
 }
 
 /// Adds one light path for each pixel, all of which fall evenly on the whole film, red only.
@@ -129,7 +131,7 @@ TEST(ErrorEstimate, HasAShareForEveryPixelAndOneForLightPaths) {
         // Poisson: 60 splats fall into a pixel, each of kLight / 60.
         light += static_cast<double>(kLight * kLight) / 60.0 / (red * red + dark) / 3.0 / kSide;
     }
-    const ErrorEstimate errors = estimate_errors(whole, part);
+    const ErrorEstimate errors = estimate_errors(whole, part, kErrorThreads);
     EXPECT_NEAR(errors.eye_mean, eye, 0.05 * eye);
     EXPECT_NEAR(errors.light, light, 0.07 * light);
     EXPECT_DOUBLE_EQ(errors.relative_error(), std::sqrt(errors.eye_mean + errors.light));
@@ -161,20 +163,25 @@ Film even_film(int width, int height, const std::vector<Rgb>& values, int count)
 // By the rule of three: the scale is 1.5, ε half of that.
 TEST(ErrorEstimate, IsNotNothingWhereAllSamplesWereEqual) {
     const std::vector<Rgb> values{Rgb(3.0f), Rgb(0.0f)};
-    const ErrorEstimate errors = estimate_errors(even_film(2, 1, values, 50), even_film(2, 1, values, 20));
+    const ErrorEstimate errors =
+        estimate_errors(even_film(2, 1, values, 50), even_film(2, 1, values, 20), kErrorThreads);
     const double missed = 3.0 * std::pow(1.5 / 50.0, 2.0);
     EXPECT_NEAR(errors.eye[0], missed / (9.0 + 0.5625), 1e-8);
     EXPECT_NEAR(errors.eye[1], missed / 0.5625, 1e-8);
     EXPECT_NEAR(errors.relative_error(), std::sqrt(0.5 * (missed / 9.5625 + missed / 0.5625)), 1e-8);
-    EXPECT_EQ(estimate_errors(even_film(2, 1, values, 50), even_film(2, 1, values, 50)).relative_error(), 0.0)
+    EXPECT_EQ(estimate_errors(even_film(2, 1, values, 50), even_film(2, 1, values, 50), kErrorThreads).relative_error(),
+              0.0)
         << "nothing to compare";
 }
 
 TEST(ErrorEstimate, OfABlackImageFallsAsNoiseDoes) {
     const std::vector<Rgb> values(6);
-    EXPECT_NEAR(estimate_errors(even_film(3, 2, values, 25), even_film(3, 2, values, 12)).relative_error(), 0.2, 1e-7);
-    EXPECT_NEAR(estimate_errors(even_film(3, 2, values, 2500), even_film(3, 2, values, 999)).relative_error(), 0.02,
-                1e-8);
+    EXPECT_NEAR(
+        estimate_errors(even_film(3, 2, values, 25), even_film(3, 2, values, 12), kErrorThreads).relative_error(), 0.2,
+        1e-7);
+    EXPECT_NEAR(
+        estimate_errors(even_film(3, 2, values, 2500), even_film(3, 2, values, 999), kErrorThreads).relative_error(),
+        0.02, 1e-8);
 }
 
 // One of 100 samples has found light, one of 64 pixels: the image is likely to be all of that off.
@@ -184,19 +191,19 @@ TEST(ErrorEstimate, IsNotMeasuredByASampleThatIsAloneInFindingLight) {
     Film whole = even_film(8, 8, values, 99);
     values[9] = Rgb(100.0f);
     whole.add(even_film(8, 8, values, 1));
-    EXPECT_GE(estimate_errors(whole, part).relative_error(), 1.0);
+    EXPECT_GE(estimate_errors(whole, part, kErrorThreads).relative_error(), 1.0);
 }
 
 TEST(ImageScale, IsThatOfMostOfWhatIsNotBlack) {
     constexpr int kWidth = 64;
     constexpr int kHeight = 32;
     std::vector<Rgb> values(kWidth * kHeight);
-    EXPECT_EQ(image_scale(even_film(kWidth, kHeight, values, 1)), 0.0);
+    EXPECT_EQ(image_scale(even_film(kWidth, kHeight, values, 1), kErrorThreads), 0.0);
     for (std::size_t i = 0; i < values.size(); ++i)
         if (i % kWidth >= 32) values[i] = Rgb(0.1f, 0.2f, 0.3f);
-    EXPECT_NEAR(image_scale(even_film(kWidth, kHeight, values, 3)), 0.2, 1e-7) << "and a black half";
+    EXPECT_NEAR(image_scale(even_film(kWidth, kHeight, values, 3), kErrorThreads), 0.2, 1e-7) << "and a black half";
     values[40] = Rgb(20.0f);  // one of 16 blocks is 2.5 times as bright
-    EXPECT_NEAR(image_scale(even_film(kWidth, kHeight, values, 1)),
+    EXPECT_NEAR(image_scale(even_film(kWidth, kHeight, values, 1), kErrorThreads),
                 0.2 * std::pow(1.0 + (std::sqrt(2.547) - 1.0) / 16.0, 2.0), 1e-4);
 }
 
@@ -212,7 +219,7 @@ TEST(ErrorEstimate, IsTheSameWhateverTheUnitOfLight) {
         Film whole = even_film(17, 9, values(), 10);
         const Film part = whole;
         whole.add(even_film(17, 9, values(), 13));
-        return estimate_errors(whole, part);
+        return estimate_errors(whole, part, kErrorThreads);
     };
     const ErrorEstimate one = estimate(1.0f);
     for (const float unit : {0.5f, 2.0f, 0x1p-30f, 0x1p31f}) {

@@ -120,7 +120,8 @@ class AdaptiveAgreement : public testing::TestWithParam<std::string> {
         ProgressiveRender rendering(world_, *integrator_, options, pool_, std::move(state));
         for (int pass = 0; pass < 2; ++pass) rendering.add_samples(1, never);
         for (int pass = 0; pass < 30; ++pass) {
-            const ErrorEstimate errors = estimate_errors(rendering.state().film, *rendering.state().every_other_pass);
+            const ErrorEstimate errors =
+                estimate_errors(rendering.state().film, *rendering.state().every_other_pass, ThreadPool(2));
             std::vector<std::uint8_t> is_active;
             for (const float error : errors.eye) is_active.push_back(error > 0.01f);
             if (std::ranges::find(is_active, 1) == is_active.end()) break;

@@ -127,21 +127,22 @@ TEST(VarianceAround, IsThatOfTheNeighboursAndNeverItsOwn) {
     const auto at = [](int x, int y) { return static_cast<std::size_t>(y * kWidth + x); };
     std::vector<float> variance(kWidth * kHeight, 0.0f);
     variance[at(10, 7)] = 24.0f;
-    const std::vector<float> around = variance_around(variance, kWidth, kHeight);
+    const std::vector<float> around = variance_around(variance, kWidth, kHeight, ThreadPool(2));
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const bool is_near = std::abs(x - 10) <= 3 && std::abs(y - 7) <= 3;
             const bool is_own = x == 10 && y == 7;
             EXPECT_FLOAT_EQ(around[at(x, y)], is_near && !is_own ? 1.0f : 0.0f) << x << ", " << y;
         }
-    EXPECT_EQ(variance_around(std::vector<float>{5.0f}, 1, 1), std::vector<float>{0.0f}) << "nothing around it";
+    EXPECT_EQ(variance_around(std::vector<float>{5.0f}, 1, 1, ThreadPool(2)), std::vector<float>{0.0f})
+        << "nothing around it";
 }
 
 TEST(VarianceAround, IsTheLargestOfTheMeans) {
     std::mt19937 random(3);
     std::vector<float> variance(9 * 7);
     for (float& value : variance) value = static_cast<float>(random() % 100);
-    const std::vector<float> around = variance_around(variance, 9, 7);
+    const std::vector<float> around = variance_around(variance, 9, 7, ThreadPool(2));
     for (int y = 0; y < 7; ++y)
         for (int x = 0; x < 9; ++x) {
             double largest = 0.0;
@@ -167,7 +168,7 @@ TEST(AdaptivePass, IsForThePixelsThatNeedIt) {
     ErrorEstimate errors;
     for (int p = 0; p < kSide * kSide; ++p) errors.eye.push_back(p % kSide < 4 ? 0.1f : 1e-4f);
     errors.eye_mean = std::accumulate(errors.eye.begin(), errors.eye.end(), 0.0) / (kSide * kSide);
-    const AdaptivePass pass = plan_adaptive_pass(state, errors, 0.9 * errors.relative_error(), 100);
+    const AdaptivePass pass = plan_adaptive_pass(state, errors, 0.9 * errors.relative_error(), 100, ThreadPool(2));
     EXPECT_EQ(pass.count, 16u);
     ASSERT_EQ(pass.is_active.size(), errors.eye.size());
     EXPECT_EQ(pass.active,
@@ -178,8 +179,8 @@ TEST(AdaptivePass, IsForThePixelsThatNeedIt) {
         EXPECT_EQ(pass.is_active[static_cast<std::size_t>(p)], column < 4 ? 1 : 0) << p;
     }
     // Fewer are left than a pass has, then none.
-    EXPECT_EQ(plan_adaptive_pass(state, errors, 1e-4, 70).count, 6u);
-    EXPECT_EQ(plan_adaptive_pass(state, errors, 1e-4, 64).active, 0u);
+    EXPECT_EQ(plan_adaptive_pass(state, errors, 1e-4, 70, ThreadPool(2)).count, 6u);
+    EXPECT_EQ(plan_adaptive_pass(state, errors, 1e-4, 64, ThreadPool(2)).active, 0u);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST(RelativeError, NoRenderEndsBeforeItIsKnownHoweverLargeTheLimit) {
 /// The root of the mean squared relative error; what is darker than half of the reference's scale, by that.
 double measured_error(const std::vector<float>& image, const Film& truth_film) {
     const std::vector<float> reference = truth_film.resolve();
-    const double dark = std::pow(0.5 * image_scale(truth_film), 2.0);
+    const double dark = std::pow(0.5 * image_scale(truth_film, ThreadPool(2)), 2.0);
     double sum = 0.0;
     for (std::size_t i = 0; i < image.size(); ++i) {
         if (i % 4 == 3) continue;  // alpha
