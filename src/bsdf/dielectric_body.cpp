@@ -15,19 +15,24 @@ Vec3f facing(const Vec3f& w, const Vec3f& wo) {
     return wo.z < 0.0f ? Vec3f(w.x, w.y, -w.z) : w;
 }
 
-/// Says which share of light passes diffuse transmission from the side of the higher index. The rest stays
-/// there: radiance is higher by the squared index on that side, and what refraction has let in must not leave
-/// amplified.
-struct DenseSide {
-    float passes = 1.0f;
-    bool is_inside = true;
+/// Says which share of light passes diffuse transmission from each side. The rest stays there: radiance is higher by
+/// the squared index on the side of the higher one, and what refraction has let in must not leave amplified; and layers
+/// on the outside keep some of what leaves.
+struct DiffusePassage {
+    float by_index = 1.0f;  ///< share that the index lets through from the denser side
+    bool is_dense_inside = true;
+    float by_layers = 1.0f;  ///< share that layers let through from the inside
 
-    explicit DenseSide(const DielectricBody& body) {
+    explicit DiffusePassage(const DielectricBody& body) : by_layers(body.passed_by_layers) {
         const float ior = std::visit([](const auto& lobe) { return lobe.ior; }, body.interface);
-        is_inside = ior > 1.0f;
-        passes = is_inside ? 1.0f / (ior * ior) : ior * ior;
+        is_dense_inside = ior > 1.0f;
+        by_index = is_dense_inside ? 1.0f / (ior * ior) : ior * ior;
     }
-    [[nodiscard]] bool has(const Vec3f& w) const { return (w.z < 0.0f) == is_inside; }
+    [[nodiscard]] bool is_dense(const Vec3f& w) const { return (w.z < 0.0f) == is_dense_inside; }
+    /// Returns the share of light from the side of `w` that passes.
+    [[nodiscard]] float from(const Vec3f& w) const {
+        return (is_dense(w) ? by_index : 1.0f) * (w.z < 0.0f ? by_layers : 1.0f);
+    }
 };
 
 Vec3f across(const Vec3f& w) {
@@ -38,23 +43,23 @@ Vec3f across(const Vec3f& w) {
 BsdfParts evaluate_opaque(const DielectricBody& body, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
     BsdfParts value = body.opaque.evaluate_parts(facing(wo, wo), facing(wi, wo));
     if (body.opaque.diffuse_transmission == 0.0f) return value;
-    const DenseSide dense(body);
-    if (dense.has(wo) && dense.has(wi)) {
+    const DiffusePassage passage(body);
+    if (wo.z * wi.z > 0.0f) {
+        if (passage.from(wo) == 1.0f) return value;
         const BsdfParts held = body.opaque.evaluate_parts(facing(wo, wo), facing(across(wi), wo));
-        value.diffuse += held.diffuse * (1.0f - dense.passes);
-        value.pdf_solid_angle += held.pdf_solid_angle * (1.0f - dense.passes);
-    } else if (dense.has(wo) != dense.has(wi)) {
-        const Vec3f& from = mode == TransportMode::Radiance ? wi : wo;
-        if (dense.has(from)) value.diffuse *= dense.passes;
-        if (dense.has(wo)) value.pdf_solid_angle *= dense.passes;
+        value.diffuse += held.diffuse * (1.0f - passage.from(wo));
+        value.pdf_solid_angle += held.pdf_solid_angle * (1.0f - passage.from(wo));
+    } else {
+        // The layers themselves say what they keep in each direction.
+        if (passage.is_dense(mode == TransportMode::Radiance ? wi : wo)) value.diffuse *= passage.by_index;
+        value.pdf_solid_angle *= passage.from(wo);
     }
     return value;
 }
 
 /// Samples the share of a body that is no interface; only the direction counts, and whether it is a delta's.
 BsdfSample sample_opaque(const DielectricBody& body, const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) {
-    const DenseSide dense(body);
-    const float passes = body.opaque.diffuse_transmission > 0.0f && dense.has(wo) ? dense.passes : 1.0f;
+    const float passes = body.opaque.diffuse_transmission > 0.0f ? DiffusePassage(body).from(wo) : 1.0f;
     const bool holds = u_lobe >= passes;
     const float u_rest =
         std::clamp(holds ? (u_lobe - passes) / (1.0f - passes) : u_lobe / passes, 0.0f, kOneMinusEpsilon);

@@ -27,7 +27,8 @@ namespace etendue {
 struct DielectricBody {
     std::variant<SmoothDielectric, RoughDielectric> interface;
     MetallicRoughness opaque{};
-    float interface_share = 1.0f;  ///< (0, 1]
+    float interface_share = 1.0f;   ///< [0, 1]
+    float passed_by_layers = 1.0f;  ///< share of diffuse light from inside that layers on the outside let through
 
     [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;

@@ -32,7 +32,7 @@ struct InterfaceFresnel {
         const float rise = std::clamp((bare - bare_normal) / (1.0f - bare_normal), 0.0f, 1.0f);
         Rgb reflected = lerp(at_normal_incidence(eta), Rgb(weight), rise);
         if (film.exists() && bare < 1.0f)
-            reflected = lerp(reflected, film_reflectance(cos_o, eta, outside), film.strength);
+            reflected = lerp(reflected, film_reflectance(cos_o, eta, outside) * weight, film.strength);
         if (bare >= 1.0f) reflected = Rgb(1.0f);
         const float transmitted = 1.0f - max_component(reflected);
         const float chance = etendue::average(reflected);

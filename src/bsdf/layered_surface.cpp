@@ -116,7 +116,9 @@ BsdfParts evaluate_layer_parts(const LayeredSurface& surface, const Layers& laye
     const BsdfParts base = evaluate_base(surface, wo, wi, mode);
     const float passed_i = Layers::passed(surface, wi);
     const float p_base = layers.p_base();
-    const float diffuse_scale = layers.passed_o * passed_i / surface.passed_average;
+    // Between a body's inside and its layers, light does not go to and fro.
+    const bool is_inside = surface.is_two_sided() && (wo.z < 0.0f || wi.z < 0.0f);
+    const float diffuse_scale = layers.passed_o * passed_i / (is_inside ? 1.0f : surface.passed_average);
     const float specular_scale =
         std::lerp(std::min(layers.passed_o, passed_i), layers.passed_o * passed_i / surface.passed_average_plain,
                   surface.diffuseness);
@@ -221,12 +223,14 @@ LayeredSurface LayeredSurface::make(const std::variant<MetallicRoughness, Dielec
         const float passed = passed_by_leaning(coat, geometric);
         averages = {averages.diffuse * passed, averages.plain * passed};
     }
-    return {.base = base,
-            .sheen = sheen,
-            .coat = coat,
-            .passed_average = averages.diffuse,
-            .passed_average_plain = averages.plain,
-            .diffuseness = plain != nullptr ? std::min(opaque.alpha_x, opaque.alpha_y) : 0.0f};
+    LayeredSurface surface{.base = base,
+                           .sheen = sheen,
+                           .coat = coat,
+                           .passed_average = averages.diffuse,
+                           .passed_average_plain = averages.plain,
+                           .diffuseness = plain != nullptr ? std::min(opaque.alpha_x, opaque.alpha_y) : 0.0f};
+    if (auto* const body = std::get_if<DielectricBody>(&surface.base)) body->passed_by_layers = averages.diffuse;
+    return surface;
 }
 
 bool LayeredSurface::has_non_delta() const {

@@ -28,10 +28,13 @@ struct BasicFrame {
         return {{T(1.0f) + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
     }
 
-    /// The frame around the unit normal `n` whose tangent is `t` made orthogonal to `n`; any frame if they are
-    /// parallel. Of single vectors only.
+    /// The frame around the unit normal `n` whose tangent is `t`, of any length, made orthogonal to `n`; any frame if
+    /// they are parallel. Of single vectors only.
     [[nodiscard]] static BasicFrame from_normal_and_tangent(const Vec& n, const Vec& t) {
-        const Vec in_plane = t - n * dot(n, t);
+        const T size = max_abs(t);
+        if (!(size > T(0.0f))) return from_normal(n);
+        const Vec scaled = t * (T(1.0f) / size);
+        const Vec in_plane = scaled - n * dot(n, scaled);
         const T squared = length_squared(in_plane);
         if (!(squared > 1e-12f)) return from_normal(n);
         const Vec tangent = in_plane * (T(1.0f) / sqrt(squared));

@@ -17,7 +17,9 @@ struct HenyeyGreenstein {
 
     /// Share of light per solid angle, 1/sr.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& wo, const Vec3f& wi) const {
-        const float denominator = std::max(1e-12f, 1.0f + g * g + 2.0f * g * dot(wo, wi));
+        // 1 + g² + 2 g wo·wi, written so that nothing cancels where |g| is near 1.
+        const float off = g < 0.0f ? length_squared(wo - wi) : length_squared(wo + wi);
+        const float denominator = std::max(1e-12f, (1.0f - std::abs(g)) * (1.0f - std::abs(g)) + std::abs(g) * off);
         return kInvPi * 0.25f * (1.0f - g * g) / (denominator * std::sqrt(denominator));
     }
 

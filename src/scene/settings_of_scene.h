@@ -80,7 +80,7 @@ inline constexpr std::array kSceneSettings{
             .decides = Decides::Samples,
             .help =
                 "What finds the surfaces that rays meet; all but `embree` are for teaching, many times as slow, and "
-                "refuse scenes in which something moves while the shutter is open",
+                "refuse scenes in which something moves while the shutter is open or back faces are culled",
             .page = "accelerators.md",
             .place = named_at<kAcceleratorNames>([](auto& s) -> auto& { return s.accelerator; })},
     Setting{.pointer = "/cull_backfaces",

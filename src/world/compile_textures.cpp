@@ -223,6 +223,17 @@ std::vector<std::size_t> TextureCompiler::for_each_request(const ThreadPool& thr
     return unreadable;
 }
 
+namespace {
+
+/// Returns true if an image is so long that the cache, whose look-ups go by the shorter side, would not find its
+/// coarser levels.
+bool is_strip(const ImageInfo& info) {
+    constexpr int kLongest = 16;
+    return std::max(info.width, info.height) >= kLongest * std::min(info.width, info.height);
+}
+
+}  // namespace
+
 void TextureCompiler::warn_of_cut_images(std::span<const std::uint8_t> is_cut, ProblemList& problems) const {
     std::set<const ImageDesc*> cut;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
@@ -320,7 +331,7 @@ void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_
         if (reported.insert(&image).second)
             warn_of_repairs(read_or_blame(image, [&] { return count_repairs(source_of(image)); }), name_of(image),
                             image.location, problems);
-        if (!fills_display(infos[i])) {
+        if (!fills_display(infos[i]) || is_strip(infos[i])) {
             data.textures.push_back(
                 read_or_blame(image, [&] { return std::move(load(requests_[i], infos[i]).texture); }));
             continue;

@@ -166,7 +166,9 @@ Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const 
     lobe.alpha_x = widened_alpha(lobe.alpha_x, point.slope_variance.x);
     lobe.alpha_y = widened_alpha(lobe.alpha_y, point.slope_variance.y);
 
-    const bool refracts = model.refracts && (1.0f - lobe.metallic) * lobe.transmission > 0.0f;
+    // Where a texture says that nothing is refracted, light that was refracted elsewhere may pass diffusely.
+    const bool passes_diffusely = model.transmission > 0.0f && lobe.diffuse_transmission > 0.0f;
+    const bool refracts = model.refracts && lobe.metallic < 1.0f && (lobe.transmission > 0.0f || passes_diffusely);
     DielectricBody body;
     if (refracts)
         body = make_body(lobe, relative_ior > 0.0f ? relative_ior : model.ior, specular.on_interface(data, lobe.film));
