@@ -102,11 +102,13 @@ DenoiseInput read_input(const DenoiseArguments& arguments) {
     }
 }
 
-/// Reads the halves of the samples of `layer`; `filled` counts pixels that could not be used.
-Halves read_halves(const DenoiseInput& input, const LayerChannels& layer, std::size_t& filled) {
+/// Reads the halves of the samples of `layer`, which is light or a feature; `filled` counts pixels that could not be
+/// used.
+Halves read_halves(const DenoiseInput& input, const LayerChannels& layer, bool is_feature, std::size_t& filled) {
     Planes whole(input.file.pixels, layer.whole);
     Planes half(input.file.pixels, layer.half);
     filled = fill_unusable(whole, half);
+    if (is_feature) bring_background_near(whole, half);
     return make_halves(whole, std::move(half), input.half_share);
 }
 
@@ -136,7 +138,7 @@ bool denoise_layers_nfor(DenoiseInput& input, const DenoiseArguments& arguments)
     std::vector<Halves> features;
     for (const LayerChannels& layer : input.plan.features) {
         std::size_t filled = 0;
-        features.push_back(read_halves(input, layer, filled));
+        features.push_back(read_halves(input, layer, true, filled));
         report_filled(layer, filled, arguments);
     }
     const ImageF& pixels = input.file.pixels;
@@ -144,9 +146,12 @@ bool denoise_layers_nfor(DenoiseInput& input, const DenoiseArguments& arguments)
     features.clear();
     for (const LayerChannels& layer : input.plan.lights) {
         std::size_t filled = 0;
-        Halves halves = read_halves(input, layer, filled);
+        Halves halves = read_halves(input, layer, false, filled);
         report_filled(layer, filled, arguments);
-        if (is_black(halves)) continue;
+        if (is_black(halves)) {
+            if (filled > 0) mean_of_all(halves.a, halves.b, halves.share).copy_to(input.file.pixels, layer.whole);
+            continue;
+        }
         take_fireflies(halves, layer, arguments);
         const Planes denoised = denoise_nfor(halves, prepared, settings, threads);
         if (interrupt_requested()) return false;
@@ -224,6 +229,8 @@ void write_denoised(const DenoiseInput& input, const DenoiseArguments& arguments
     const PixelRect& display = input.file.display_window;
     options.offset_x = data.x0 - display.x0;
     options.offset_y = data.y0 - display.y0;
+    options.full_x = display.x0;
+    options.full_y = display.y0;
     options.full_width = display.width();
     options.full_height = display.height();
     write_image_parts(arguments.output, std::array{part}, options);

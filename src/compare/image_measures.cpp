@@ -101,7 +101,11 @@ std::vector<Measure> MeasuredPair::measure(const std::vector<std::string>& names
             map = ldr_flip(linear, linear_reference, ppd, threads);
             measures.push_back({name, mean_of(map, selection()), describe_ldr_flip(ppd)});
         }
-        if (measures.size() == 1) map_ = std::move(map);
+        if (measures.size() == 1) {
+            // What is left out may have got something of its neighbours, by the filters of a metric.
+            map_ = std::move(map);
+            blank(map_, left_out_);
+        }
     }
     return measures;
 }

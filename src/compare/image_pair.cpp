@@ -89,6 +89,8 @@ std::string common_space(const ComparedFile& a, const ComparedFile& b, bool is_e
 
 /// R, G and B of the pixels in `window`.
 ImageF rgb_in(const ImageF& image, const PixelRect& data, const PixelRect& window) {
+    if (image.width != data.width() || image.height != data.height() || image.channels < 3)
+        throw IoError("an image changed while it was read");
     ImageF rgb(window.width(), window.height(), 3);
     for (int y = 0; y < rgb.height; ++y)
         for (int x = 0; x < rgb.width; ++x)

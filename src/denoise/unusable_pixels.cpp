@@ -67,4 +67,20 @@ std::size_t fill_unusable(Planes& whole, Planes& one_half) {
     return count;
 }
 
+void bring_background_near(Planes& whole, Planes& one_half) {
+    constexpr float kBehind = 1.1f;
+    for (int plane = 0; plane < whole.count(); ++plane) {
+        float farthest = 0.0f;
+        for (int y = 0; y < whole.height(); ++y)
+            std::for_each_n(whole.row(plane, y), whole.width(), [&](float v) {
+                if (v < kNothingThere) farthest = std::max(farthest, v);
+            });
+        for (Planes* planes : {&whole, &one_half})
+            for (int y = 0; y < planes->height(); ++y)
+                std::for_each_n(planes->row(plane, y), planes->width(), [&](float& v) {
+                    if (v >= kNothingThere) v = kBehind * farthest;
+                });
+    }
+}
+
 }  // namespace etendue

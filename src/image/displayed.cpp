@@ -35,6 +35,7 @@ template <typename T>
 Image<T> placed(const Image<T>& data, const ImageInfo& info) {
     const PixelRect& window = info.data_window;
     const PixelRect& display = info.display_window;
+    if (data.width != window.width() || data.height != window.height()) throw IoError("it changed while it was read");
     Image<T> whole(display.width(), display.height(), data.channels);
     const PixelRect shown = intersection(window, display);
     for (int y = shown.y0; y < shown.y1; ++y)

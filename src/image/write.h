@@ -48,6 +48,9 @@ struct ImageWriteOptions {
     /// when the image is whole.
     int offset_x = 0;
     int offset_y = 0;
+    /// First pixel of that larger image, which `offset_x` and `offset_y` are counted from.
+    int full_x = 0;
+    int full_y = 0;
     int full_width = 0;
     int full_height = 0;
 };

@@ -7,8 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
@@ -77,8 +75,10 @@ OIIO::ImageSpec make_spec(const ImagePart& part, const ImageWriteOptions& option
     for (const PixelDepth depth : part.channel_depths) spec.channelformats.push_back(stored_type(depth));
     const std::vector<std::string>& names = part.channel_names.empty() ? options.channel_names : part.channel_names;
     spec.channelnames = names.empty() ? default_channel_names(image.channels) : names;
-    spec.x = options.offset_x;
-    spec.y = options.offset_y;
+    spec.full_x = options.full_x;
+    spec.full_y = options.full_y;
+    spec.x = options.full_x + options.offset_x;
+    spec.y = options.full_y + options.offset_y;
     if (options.full_width > 0 && options.full_height > 0) {
         spec.full_width = options.full_width;
         spec.full_height = options.full_height;
@@ -105,12 +105,16 @@ std::vector<T> to_integers(std::span<const float> pixels) {
     return integers;
 }
 
+bool is_beyond_half(float value) {
+    return std::isfinite(value) && std::abs(value) > kLargestHalf;
+}
+
 // A finite value stays finite: an infinity in a file poisons every filter that touches it.
 // `depths` are those of the channels.
 std::vector<float> to_half_range(std::span<const float> pixels, std::span<const PixelDepth> depths) {
     std::vector<float> clamped(pixels.begin(), pixels.end());
     for (std::size_t i = 0; i < clamped.size(); ++i)
-        if (depths[i % depths.size()] == PixelDepth::Half && std::isfinite(clamped[i]))
+        if (depths[i % depths.size()] == PixelDepth::Half && is_beyond_half(clamped[i]))
             clamped[i] = std::clamp(clamped[i], -kLargestHalf, kLargestHalf);
     return clamped;
 }
@@ -122,7 +126,8 @@ bool write_pixels(OIIO::ImageOutput& output, const ImagePart& part, PixelDepth d
     if (depth == PixelDepth::UInt16)
         return output.write_image(OIIO::TypeDesc::UINT16, to_integers<std::uint16_t>(image.pixels).data());
     const std::vector<PixelDepth> depths = part.channel_depths.empty() ? std::vector{depth} : part.channel_depths;
-    if (std::ranges::find(depths, PixelDepth::Half) == depths.end())
+    const bool has_halves = std::ranges::find(depths, PixelDepth::Half) != depths.end();
+    if (!has_halves || std::ranges::none_of(image.pixels, is_beyond_half))
         return output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
     return output.write_image(OIIO::TypeDesc::FLOAT, to_half_range(image.pixels, depths).data());
 }
@@ -161,9 +166,16 @@ class MemoryFile {
     MemoryFile& operator=(const MemoryFile&) = delete;
 
     [[nodiscard]] std::string name() const { return fmt::format("/proc/self/fd/{}", fd_); }
+    /// Throws IoError.
     [[nodiscard]] std::vector<unsigned char> bytes() const {
-        std::ifstream file(name(), std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
+        std::vector<unsigned char> bytes(fd_ < 0 ? 0 : static_cast<std::size_t>(lseek(fd_, 0, SEEK_END)));
+        std::size_t done = 0;
+        while (done < bytes.size()) {
+            const ssize_t got = pread(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+            if (got <= 0) throw IoError("what was encoded cannot be read from memory");
+            done += static_cast<std::size_t>(got);
+        }
+        return bytes;
     }
 
   private:

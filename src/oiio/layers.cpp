@@ -165,6 +165,12 @@ LayeredImage read_layers(const EncodedImage& encoded) {
         names.push_back(name.empty() ? fmt::format("part{}", image.part) : name);
         add_part(image, result);
     } while (image.part + 1 < kMostParts && seek_part(image, image.part + 1));
+    try {
+        require_all_parts(image);
+    } catch (const IoError& error) {
+        // Those behind it cannot be reached.
+        result.layers.push_back({.name = "rest", .part = image.part, .problem = error.what()});
+    }
     if (names.size() > 1)
         for (ImageLayer& layer : result.layers)
             layer.name = with_part(layer.name, names[static_cast<std::size_t>(layer.part)]);

@@ -120,6 +120,11 @@ bool seek_part(OpenImage& image, int part) {
     return true;
 }
 
+void require_all_parts(const OpenImage& image) {
+    if (image.format.name == "openexr" && image.input->has_error())
+        throw_library_error(*image.input, fmt::format("part {} is broken", image.part + 1));
+}
+
 void require_acceptable(const OpenImage& image) {
     refuse_absurd(image.spec, image.format, image.encoded_size);
 }

@@ -33,6 +33,10 @@ struct OpenImage {
 [[nodiscard]] OpenImage open_unchecked(const EncodedImage& encoded);
 /// Goes on with another part, whose header may claim anything. Returns false if there is none.
 [[nodiscard]] bool seek_part(OpenImage& image, int part);
+
+/// Throws IoError if `seek_part` has failed for another reason than that there are no more parts. Of EXR files only:
+/// for other formats, the library calls their end an error, too.
+void require_all_parts(const OpenImage& image);
 /// Throws IoError if what the header claims is not accepted.
 void require_acceptable(const OpenImage& image);
 

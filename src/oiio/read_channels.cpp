@@ -111,6 +111,7 @@ ChannelImage read_channels(const EncodedImage& encoded) {
             if (image.channel_names.size() > kMostChannels)
                 throw IoError(fmt::format("it has more than {} channels", kMostChannels));
         } while (seek_part(open, open.part + 1));
+        require_all_parts(open);
         require_different(image.channel_names);
         // All parts together may not claim more than the file can hold, either.
         open.spec.nchannels = static_cast<int>(image.channel_names.size());

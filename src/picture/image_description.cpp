@@ -203,12 +203,13 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     // Means of half of the samples are no halves of a median of means.
     const bool has_halves = state.every_other_pass && state.every_other_spp > 0 && description.buckets.count == 0;
     if (!has_halves || frame.layers.empty()) return;
-    const bool is_adaptive = !state.adaptive.is_uniform();
+    // Each pixel has a share of its own where passes were for some pixels, or one was cut short.
+    const bool is_uneven = !state.adaptive.is_uniform() || state.pass_size > 0;
     const std::optional<Film> evened =
-        is_adaptive ? std::optional(state.film.as_half(*state.every_other_pass)) : std::nullopt;
+        is_uneven ? std::optional(state.film.as_half(*state.every_other_pass)) : std::nullopt;
     const Film& half = evened ? *evened : *state.every_other_pass;
     frame.half_share =
-        is_adaptive ? 0.5f : static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
+        is_uneven ? 0.5f : static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
     OutputLayer image{
         .name = std::string(kHalf), .channels = "RGBA", .is_color = true, .is_half = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));

@@ -65,6 +65,8 @@ class Denoise : public testing::Test {
                       PixelDepth depth = PixelDepth::Float) const {
         ImageWriteOptions options{.depth = depth, .channel_names = image.names, .attributes = std::move(attributes)};
         options.offset_x = 8;
+        options.full_x = -3;
+        options.full_y = 5;
         options.full_width = 100;
         options.full_height = 50;
         write_image(folder_ / name, image.pixels, options);
@@ -117,6 +119,7 @@ TEST_F(Denoise, DenoisesEveryLayerOfLightAndKeepsTheRest) {
     for (const char* name : {"A", "N.X", "N.Z", "id"}) EXPECT_EQ(channel(after, name), channel(before, name)) << name;
     EXPECT_EQ(after.data_window, before.data_window);
     EXPECT_EQ(after.display_window, before.display_window);
+    EXPECT_EQ(after.display_window, (PixelRect{-3, 5, 97, 55}));
     EXPECT_EQ(std::get<std::string>(after.find("etendue:scene")->value), "box");
     EXPECT_TRUE(contains(std::get<std::string>(after.find("etendue:denoised")->value), "nfor, radius 9"));
     EXPECT_FALSE(after.find("etendue:halfShare"));
@@ -193,6 +196,13 @@ TEST_F(Denoise, CountsAndFillsPixelsThatAreNotFinite) {
     EXPECT_TRUE(contains(result.err, "2 pixels of RGB are not finite")) << result.err;
     EXPECT_TRUE(contains(result.err, "1 pixels of N are")) << result.err;
     EXPECT_LT(error_of(channel(read("out.exr"), "R")), 0.01);
+    for (const char* const name : {"caustics.R", "caustics.G", "caustics.B"})
+        for (int y = 0; y < image.pixels.height; ++y)
+            for (int x = 0; x < image.pixels.width; ++x)
+                image.at(name, x, y) = image.at(half_channel(name), x, y) = 0.0f;
+    image.at("caustics.G", 5, 6) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(denoise({write("black.exr", image), "-o", "black.exr"}).exit_code, 0);
+    EXPECT_TRUE(std::ranges::all_of(channel(read("black.exr"), "caustics.G"), [](float v) { return v == 0.0f; }));
 }
 
 TEST_F(Denoise, RemovesFirefliesUnlessTheyAreToStay) {

@@ -146,6 +146,12 @@ TEST_F(Diff, PixelsThatAreNotFiniteAreFoundAndLeftOut) {
     const Image8 map = read_image_8bit(work_ / "map.png");
     EXPECT_EQ(map.pixel(7, 3)[1], 200) << "in a colour of their own";
     EXPECT_EQ(map.pixel(8, 3)[1], 0);
+    // FLIP's filters carry differences between neighbours.
+    image.pixel(8, 3)[0] += 0.5f;
+    (void)diff_json({b, exr("c", image), "--metric", "flip", "--map", "map.exr"}, 1);
+    const ImageF numbers = read_image_float(work_ / "map.exr");
+    EXPECT_GT(numbers.pixel(8, 3)[0], 0.0f);
+    EXPECT_EQ(numbers.pixel(7, 3)[0], 0.0f) << "left out";
 }
 
 TEST_F(Diff, NothingLeftToMeasureIsNoSuccess) {

@@ -39,6 +39,22 @@ TEST(UnusablePixels, HolesAreFilledFromTheirRim) {
     EXPECT_EQ(whole.row(0, 22)[22], 0.0f) << "too far from any";
 }
 
+TEST(UnusablePixels, TheBackgroundComesNear) {
+    Planes whole = same_planes(4, 3, 2, [](int x, int) { return x == 0 ? 1e10f : float(x); });
+    Planes half = same_planes(4, 3, 2, [](int x, int) { return x < 2 ? 1e10f : float(x); });
+    bring_background_near(whole, half);
+    for (const int plane : {0, 1}) {
+        EXPECT_FLOAT_EQ(whole.row(plane, 2)[0], 3.3f);
+        EXPECT_EQ(whole.row(plane, 2)[3], 3.0f);
+        EXPECT_FLOAT_EQ(half.row(plane, 2)[1], 3.3f);
+        EXPECT_EQ(half.row(plane, 2)[2], 2.0f);
+    }
+    Planes nothing = same_planes(2, 2, 1, [](int, int) { return 1e10f; });
+    Planes same = nothing;
+    bring_background_near(nothing, same);
+    EXPECT_EQ(nothing.row(0, 1)[1], 0.0f);
+}
+
 TEST(UnusablePixels, GoodImagesStayAsTheyAre) {
     Planes whole = same_planes(10, 10, 3, [](int x, int y) { return 1e14f * float(x - y); });
     const Planes before = whole;

@@ -56,6 +56,16 @@ TEST(SplatFilm, ASplatIsSpreadByTheFilter) {
     EXPECT_NEAR(sum, 2.0 * kWidth * kHeight / 1000.0, 0.05);
 }
 
+TEST(SplatFilm, ASplatOnTheEdgeOfTwoBoxesFallsIntoOne) {
+    const PixelFilter filter(FilterShape::Box);
+    for (const Vec2f& at : {Vec2f{20.0f, 14.5f}, Vec2f{20.5f, 14.0f}, Vec2f{20.0f, 14.0f}}) {
+        const std::vector<float> image = image_of({{{at, Rgb(1000.0f)}}}, kWhole, filter, 1);
+        float sum = 0.0f;
+        for (std::size_t i = 0; i < image.size(); i += 4) sum += image[i];
+        EXPECT_FLOAT_EQ(sum, float(kWidth * kHeight));
+    }
+}
+
 TEST(SplatFilm, ThreadsDoNotChangeABitAndACropIsThePartOfTheWhole) {
     const auto splats = random_splats(20, 300);
     const PixelFilter filter(FilterShape::BlackmanHarris);
