@@ -52,7 +52,7 @@ inline constexpr std::array kSampleSettings{
             .type = RealNumber{kNotNegative},
             .decides = Decides::End,
             .help = "Start no new pass once the image's estimated relative error is at most this: 0.05 is a clean "
-                    "preview, 0.01 a clean image, 0 asks for none. It is a root mean square; values below half of "
+                    "preview, 0.01 a clean image, 0 sets no limit. It is a root mean square; values below half of "
                     "the image's own scale are measured against that half. Pixels get as many samples as they need, "
                     "`--spp` at most. This doubles the memory of the film",
             .page = "adaptive.md#what-the-error-is-relative-to",
@@ -78,8 +78,8 @@ inline constexpr std::array kSampleSettings{
             .option = "--brightest",
             .type = WholeNumber{0, kMostBrightest},
             .decides = Decides::Report,
-            .help = "List this many of the brightest contributions, with the paths that brought them, in NAME.json, "
-                    "and at the end if the option asks for it",
+            .help = "List this many of the brightest contributions with their paths in NAME.json, and on stderr if the "
+                    "option is given",
             .page = "fireflies.md",
             .place = at([](auto& s) -> auto& { return s.brightest; })},
     Setting{.pointer = "/adaptive",

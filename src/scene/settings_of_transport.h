@@ -54,9 +54,8 @@ inline constexpr std::array kTransportSettings{
             .type = WholeNumber{1, kMostInt},
             .decides = Decides::Samples,
             .unit = "rays",
-            .help = "Rays, those behind clear surfaces and in media included, after which Russian roulette may end a "
-                    "path; `bdpt` "
-                    "shares them between its subpaths",
+            .help = "Russian roulette may end a path after this many rays. Rays behind clear surfaces and in media "
+                    "count; `bdpt` divides the number between its two subpaths",
             .page = "integrators.md#russian-roulette",
             .place = at([](auto& s) -> auto& { return s.integrator.lengths.roulette_depth; })},
     Setting{.pointer = "/integrator/light_samples",

@@ -112,7 +112,7 @@ constexpr ShapeField kPrimitiveFields[] = {
 constexpr Shape kPrimitive = object(kPrimitiveFields);
 constexpr ShapeField kMeshFields[] = {
     {"name", text()},
-    {"primitives", some(kPrimitive), true},
+    {"primitives", array(kPrimitive), true},
     {"weights", array(kNumber)},
 };
 constexpr Shape kMesh = object(kMeshFields);
@@ -248,13 +248,13 @@ constexpr ShapeField kChannelFields[] = {
 constexpr Shape kChannel = object(kChannelFields);
 constexpr ShapeField kAnimationFields[] = {
     {"name", text()},
-    {"samplers", some(kAnimationSampler), true},
-    {"channels", some(kChannel), true},
+    {"samplers", array(kAnimationSampler), true},
+    {"channels", array(kChannel), true},
 };
 constexpr Shape kAnimation = object(kAnimationFields);
 constexpr ShapeField kSkinFields[] = {
     {"inverseBindMatrices", index_of("/accessors")},
-    {"joints", some(kNodeIndex), true},
+    {"joints", array(kNodeIndex), true},
 };
 constexpr Shape kSkin = object(kSkinFields);
 

@@ -64,6 +64,15 @@ std::string file_name(const GltfImage& source) {
     return fmt::format("image file '{}': ", shown(source.uri));
 }
 
+/// Stands for an image that cannot be read.
+ImageDesc unreadable_image(const std::string& name, const SourceLocation& where) {
+    ImageDesc image;
+    image.name = name;
+    image.location = where;
+    image.unreadable = true;
+    return image;
+}
+
 }  // namespace
 
 TextureReader::TextureReader(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene,
@@ -92,10 +101,15 @@ Handle<TextureDesc> TextureReader::read_texture(std::size_t index) {
             problems_.warning(where, "the texture has no image: what uses it does without");
             return {};
         }
-        problems_.error(where, "the texture's only image comes from an extension that is not supported: " + extensions);
-        return {};
+        extensions = "the texture's only image comes from an extension that is not supported: " + extensions;
+        if (scene_.settings.missing_textures == MissingTextures::Error) {
+            problems_.error(where, extensions);
+            return {};
+        }
+        problems_.warning(where, extensions + "; materials do without it");
     }
-    const Handle<ImageDesc> pixels = image(static_cast<std::size_t>(image_index));
+    const Handle<ImageDesc> pixels = image_index < 0 ? add_image(unreadable_image(source.name, where))
+                                                     : image(static_cast<std::size_t>(image_index));
     if (!pixels) return {};
 
     TextureDesc texture;
@@ -119,11 +133,13 @@ Handle<ImageDesc> TextureReader::image(std::size_t index) {
     const auto known = images_.find(index);
     if (known != images_.end()) return known->second;
     Handle<ImageDesc> handle;
-    if (std::optional<ImageDesc> image = read_image(index)) {
-        handle.index = static_cast<std::int32_t>(scene_.images.size());
-        scene_.images.push_back(std::move(*image));
-    }
+    if (std::optional<ImageDesc> image = read_image(index)) handle = add_image(std::move(*image));
     return images_[index] = handle;
+}
+
+Handle<ImageDesc> TextureReader::add_image(ImageDesc image) {
+    scene_.images.push_back(std::move(image));
+    return {static_cast<std::int32_t>(scene_.images.size() - 1)};
 }
 
 Handle<ImageDesc> TextureReader::required_image(std::size_t index) {
@@ -164,11 +180,7 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
         }
         problems_.warning(image.location,
                           fmt::format("{}{}; materials do without it", file_name(source), error.what()));
-        ImageDesc unreadable;
-        unreadable.name = source.name;
-        unreadable.location = image.location;
-        unreadable.unreadable = true;
-        return unreadable;
+        return unreadable_image(source.name, image.location);
     }
     if (!image.path.empty() && std::ranges::find(scene_.inputs, image.path) == scene_.inputs.end())
         scene_.inputs.push_back(image.path);

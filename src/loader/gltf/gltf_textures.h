@@ -24,6 +24,8 @@ class TextureReader {
 
   private:
     [[nodiscard]] Handle<ImageDesc> image(std::size_t index);
+    /// Appends an image to the scene.
+    [[nodiscard]] Handle<ImageDesc> add_image(ImageDesc image);
     [[nodiscard]] Handle<TextureDesc> read_texture(std::size_t index);
     [[nodiscard]] std::optional<ImageDesc> read_image(std::size_t index);
     [[nodiscard]] bool take_pixels(const GltfImage& source, ImageDesc& image);

@@ -104,7 +104,7 @@ void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problem
         if (scene.origin != Vec3d(0.0) && !problems.has_errors())
             aim(json.camera_aim, scene.origin, scene.cameras.back());
     }
-    apply_camera_changes(json.lens, json.cameras, scene, problems);
+    apply_camera_changes(json.lens, json.cameras, json.said_of_camera, scene, problems);
 }
 
 void apply_environment(const RenderJson& json, std::span<const std::filesystem::path> assets, SceneDesc& scene,

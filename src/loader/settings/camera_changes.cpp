@@ -219,8 +219,8 @@ CameraChange read_camera_change(const Json& value, const SourceLocation& where, 
     return change;
 }
 
-void apply_camera_changes(const LensSettings& all, const std::map<std::string, CameraChange>& changes, SceneDesc& scene,
-                          ProblemList& problems) {
+void apply_camera_changes(const LensSettings& all, const std::map<std::string, CameraChange>& changes,
+                          const CameraChange& own, SceneDesc& scene, ProblemList& problems) {
     if (!all.empty() && scene.cameras.empty())
         problems.warning(all.location, "what is said of the lens is ignored: the scene has no camera");
     std::vector<const CameraChange*> change_of(scene.cameras.size(), nullptr);
@@ -258,9 +258,13 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
         if (camera.type == CameraType::Fisheye) apply_fisheye_lens(lens, scene.settings.film.aspect(), camera);
         if (is_photographic && camera.type == CameraType::Perspective)
             apply_photographic(lens, scene.settings.film.aspect(), camera);
-        if (change != nullptr || &camera == chosen)
-            note_without_effect(lens, change != nullptr ? change->view : ViewSettings(),
-                                change != nullptr ? change->location : camera.location, camera, problems);
+        if (change != nullptr) {
+            note_without_effect(lens, change->view, change->location, camera, problems);
+        } else if (&camera == chosen) {
+            const bool is_own = camera.location == own.location;
+            note_without_effect(is_own ? merged(lens, own.lens) : lens, is_own ? own.view : ViewSettings(),
+                                camera.location, camera, problems);
+        }
         if (camera.type != CameraType::Perspective) camera.lens_radius = 0.0f;
         if (lens.focus_node.empty()) continue;
         const bool is_own = change != nullptr && !change->lens.focus_node.empty();

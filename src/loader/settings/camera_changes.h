@@ -64,8 +64,9 @@ void apply_view(const ViewSettings& view, CameraDesc& camera);
 
 /// Changes the scene's cameras: all of them as `all` says, and those that have names in `changes`. What is said of one
 /// goes before what is said of all. Errors for names that the scene does not have, and for a focus behind the camera
-/// that is chosen or named.
-void apply_camera_changes(const LensSettings& all, const std::map<std::string, CameraChange>& changes, SceneDesc& scene,
-                          ProblemList& problems);
+/// that is chosen or named; notes for what a camera's type ignores, also of `own`, which the camera of render.json has
+/// been given already.
+void apply_camera_changes(const LensSettings& all, const std::map<std::string, CameraChange>& changes,
+                          const CameraChange& own, SceneDesc& scene, ProblemList& problems);
 
 }  // namespace etendue

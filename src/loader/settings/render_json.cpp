@@ -56,7 +56,8 @@ bool check_aim(const CameraAim& aim, JsonObject& object) {
     return true;
 }
 
-CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim& view, ProblemList& problems) {
+CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim& view, CameraChange& said,
+                       ProblemList& problems) {
     CameraDesc camera;
     camera.name = "render.json";
     camera.location = where;
@@ -69,8 +70,12 @@ CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim
     const bool has_look_at = object.vector("look_at", view.look_at);
     object.vector("up", view.up);
     object.number("lens_radius", kNotNegative, camera.lens_radius);
-    view.focuses = !object.number("focus_distance", kPositive, camera.focus_distance);
-    apply_view(read_view(object), camera);
+    if (float distance = 0.0f; object.number("focus_distance", kPositive, distance)) said.lens.focus_distance = distance;
+    view.focuses = !said.lens.focus_distance;
+    camera.focus_distance = said.lens.focus_distance.value_or(camera.focus_distance);
+    said.view = read_view(object);
+    said.location = where;
+    apply_view(said.view, camera);
     if (has_position && has_look_at && check_aim(view, object)) aim(view, Vec3d(0.0), camera);
     object.finish();
     return camera;
@@ -163,7 +168,7 @@ void read_camera_member(JsonObject& object, RenderJson& out) {
     const Json* member = object.member("camera");
     if (member == nullptr) return;
     if (member->is_object()) {
-        out.camera = read_camera(*member, object.at("camera"), out.camera_aim, object.problems());
+        out.camera = read_camera(*member, object.at("camera"), out.camera_aim, out.said_of_camera, object.problems());
         out.settings.camera = out.camera->name;
     } else if (member->is_string()) {
         object.setting(*find_setting(kCameraPointer), "camera", out.settings);

@@ -54,6 +54,7 @@ struct RenderJson {
     RenderSettings settings;           ///< `camera` is the name chosen
     std::optional<CameraDesc> camera;  ///< described here; chosen too
     CameraAim camera_aim;              ///< aim of the chosen camera
+    CameraChange said_of_camera;       ///< what `camera` has been given, but for its aim
     LensSettings lens;                 ///< lens of whichever camera is chosen
     std::map<std::string, CameraChange> cameras;
     std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved

@@ -122,8 +122,15 @@ const Breach kBreaches[] = {
      [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 0; }},
     {"OddStride", Severity::Error, "multiple of 4", "/bufferViews/0/byteStride",
      [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 13; }},
-    {"NoPrimitives", Severity::Error, "at least 1", "/meshes/0/primitives",
-     [](GltfBuilder& b) { b.json["meshes"][0]["primitives"] = nlohmann::json::array(); }},
+    {"NoPrimitives", Severity::Warning, "empty arrays", "/meshes/1/primitives",
+     [](GltfBuilder& b) {
+         b.json["meshes"].push_back({{"primitives", nlohmann::json::array()}});
+     }},
+    {"EmptyAnimation", Severity::Warning, "empty arrays", "/animations/0/channels",
+     [](GltfBuilder& b) {
+         b.json["animations"] = {
+             {{"name", "Take 001"}, {"channels", nlohmann::json::array()}, {"samplers", nlohmann::json::array()}}};
+     }},
     {"NoJoints", Severity::Error, "at least 1", "/skins/0/joints",
      [](GltfBuilder& b) {
          b.json["skins"] = {{{"joints", nlohmann::json::array()}}};

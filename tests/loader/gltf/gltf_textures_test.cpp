@@ -242,10 +242,16 @@ TEST(Textures, ViewsOutsideTheBufferAreErrors) {
     EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "covers 1000000000", "/images/0"));
 }
 
-TEST(Textures, OnlyFromAnUnsupportedExtensionIsAnError) {
+TEST(Textures, OnlyFromAnUnsupportedExtensionTheyAreMissing) {
     GltfBuilder builder = textured({{"uri", "a.ktx2"}});
+    builder.json["extensionsUsed"] = {"KHR_texture_basisu"};
     builder.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
-    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "KHR_texture_basisu", "/textures/0"));
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "KHR_texture_basisu", "/textures/0"));
+    EXPECT_FALSE(loaded.problems.has_errors());
+    EXPECT_EQ(count_missing_textures(loaded.scene), 1u);
+    const LoadedScene strict = builder.load({.settings = R"({"missing_textures": "error"})"});
+    EXPECT_TRUE(has_problem(strict.problems, Severity::Error, "KHR_texture_basisu", "/textures/0"));
 }
 
 TEST(Textures, WithoutAnImageTheyAreLeftOut) {

@@ -349,6 +349,11 @@ TEST(RenderJson, NotesWhatACameraOfItsTypeDoesNotHave) {
     EXPECT_EQ(flat.scene.cameras.at(0).ymag, 4.0f);
     EXPECT_NE(listing(flat.problems).find("is orthographic, and ignores yfov"), std::string::npos);
     EXPECT_EQ(load_lens(R"({"cameras": {"main": {"yfov": 0.25}}})").scene.cameras.at(0).yfov, 0.25f);
+    EXPECT_NE(note_of(R"({"camera": {"position": [0, 0, 5], "look_at": [0, 0, 0], "fov": 2, "focus_distance": 3}})")
+                  .find("is a pinhole, and ignores focus_distance, fov"),
+              std::string::npos);
+    EXPECT_EQ(note_of(R"({"camera": {"position": [0, 0, 5], "look_at": [0, 0, 0], "yfov": 0.5}})").find("ignores"),
+              std::string::npos);
 }
 
 // What is said of one camera goes before what is said of all, which it keeps the rest of.
