@@ -18,7 +18,7 @@ namespace etendue {
 /// Holds what one line says that `etendue render --progress-fd` writes.
 struct ChildProgress {
     std::string phase{};    ///< "load", "resume", "build", "render" or "write"
-    double fraction = 0.0;  ///< share of the samples that are taken, [0, 1]
+    double fraction = 0.0;  ///< part of the image that is done, [0, 1]
     double seconds = 0.0;   ///< seconds of rendering
     std::uint64_t samples = 0;
 };

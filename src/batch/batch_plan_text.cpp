@@ -113,7 +113,8 @@ std::string to_json(const BatchPlan& plan) {
     Json units = Json::array();
     for (const PlannedUnit& unit : plan) {
         const ImageJob& job = unit.task.job;
-        units.push_back({{"name", job.name},
+        units.push_back({{"unit", unit.task.id},
+                         {"name", job.name},
                          {"scene", job.scene.string()},
                          {"frame", job.frame ? Json(*job.frame) : Json()},
                          {"variant", job.variant ? Json(*job.variant) : Json()},

@@ -10,7 +10,8 @@ namespace etendue {
 
 BatchUnit unknown_unit(const BatchTask& task, const BatchOptions& options) {
     const ImageJob& job = task.job;
-    BatchUnit unit{.name = job.name,
+    BatchUnit unit{.id = task.id,
+                   .name = job.name,
                    .scene = job.scene.string(),
                    .frame = job.frame,
                    .variant = job.variant.value_or(""),

@@ -49,8 +49,10 @@ std::vector<FoundScene> find_scenes(const std::vector<std::string>& roots) {
         // Absolute, so that "." has a name, and without a trailing slash, so that the last component has one.
         fs::path root = fs::absolute(text).lexically_normal();
         if (!root.has_filename()) root = root.parent_path();
-        const auto add = [&](const fs::path& scene, const fs::path& below, const std::string& name) {
+        const auto add = [&](const fs::path& scene, const fs::path& below, std::string name) {
             if (!seen.insert(scene).second) return;
+            // In an output's name, a '#' stands for the frame's number.
+            std::ranges::replace(name, '#', '_');
             scenes.push_back({scene.lexically_proximate(fs::current_path()), below, name});
             ++uses[name];
         };
@@ -372,6 +374,15 @@ std::string why_not_denoised(const BatchTask& task, const BatchOptions& options)
     return "";
 } catch (const std::exception&) {
     return "";  // rendering the scene will say what is wrong
+}
+
+std::string note_on_exposures(std::span<const BatchTask> tasks, const SettingsOverrides& overrides) {
+    const bool has_sequence =
+        std::ranges::any_of(tasks, [](const BatchTask& task) { return task.job.frame.has_value(); });
+    if (!has_sequence || !overrides.png || overrides.has("/color/exposure")) return {};
+    return "note: the PNGs of frames that are made at once may flicker, since each frame without an exposure chooses "
+           "its "
+           "own: give --exposure, or \"exposure\" in render.json";
 }
 
 }  // namespace etendue

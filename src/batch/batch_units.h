@@ -46,6 +46,10 @@ void check_name_pattern(const std::string& pattern);
 /// name; and ReplacedInput if any of them, or the log, is an input of a scene.
 [[nodiscard]] BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_names);
 
+/// Returns a note that frames which are made at once each choose an exposure of their own; empty if no frame of `tasks`
+/// gets a PNG without an exposure that is asked for.
+[[nodiscard]] std::string note_on_exposures(std::span<const BatchTask> tasks, const SettingsOverrides& overrides);
+
 /// Says why the image cannot be denoised, by its settings, however it is rendered; empty if it can, or if the settings
 /// cannot be read.
 [[nodiscard]] std::string why_not_denoised(const BatchTask& task, const BatchOptions& options);

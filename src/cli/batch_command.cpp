@@ -169,11 +169,16 @@ ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live,
         keep_failed(tasks, history);
         if (tasks.chosen.empty()) {
             progress->say(fmt::format("--failed: no image in {} failed last time", options.output.string()));
+            if (options.dry_run) print(options, to_json(BatchPlan()), "");
+            if (!options.dry_run) print(options, to_json(report), "");
             return ExitCode::Success;
         }
     }
     if (options.dry_run) return run_dry(std::move(tasks.chosen), options, history, *progress);
     prepare_output(options.output);
+    if (options.jobs != 1)
+        if (const std::string note = note_on_exposures(tasks.chosen, options.overrides); !note.empty())
+            progress->say(note);
     std::optional<BatchLivePage> page;
     if (live) page.emplace(*live);
     BatchRunner runner(options, std::move(tasks), history, *progress, page ? &*page : nullptr);

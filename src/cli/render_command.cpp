@@ -10,6 +10,7 @@
 #include "loader/files.h"
 #include "picture/aov_sources.h"
 #include "picture/output_paths.h"
+#include "render/checkpoint.h"
 #include "session/image_job.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
@@ -62,7 +63,9 @@ void report(const std::filesystem::path& output, const RenderStatistics& s) {
 }
 
 /// NAME.exr, or NAME.partial if it is to be part of an image.
-std::filesystem::path default_output(const RenderArguments& arguments, const std::string& name) {
+std::filesystem::path default_output(const RenderArguments& arguments, std::string name) {
+    // In an output's name, a '#' stands for the frame's number.
+    std::ranges::replace(name, '#', '_');
     const auto& samples = arguments.job.samples;
     return samples ? fmt::format("{}.{}-{}.partial", name, samples->begin, samples->end) : name + ".exr";
 }
@@ -87,6 +90,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     std::vector<ImageResult> results;
     std::set<std::string> told;
     std::optional<SomethingToKeep> kept_from_signals;
+    bool has_refused = false;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
         SceneRenderRequest request = arguments.job;
         request.force = arguments.force || (!is_sequence && !arguments.job.resume);
@@ -94,10 +98,19 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
         request.told = &told;
         if (page) request.watchers.push_back(&*page);
         if (tev) request.watchers.push_back(&*tev);
-        ImageResult result = run_job(jobs[i], std::move(request), threads);
+        ImageResult result{jobs[i], ImageOutcome::Failed, {}, {}};
+        try {
+            result = run_job(jobs[i], std::move(request), threads);
+        } catch (const RefusedCheckpoint& error) {
+            // The frames behind it may well go on.
+            if (!is_sequence) throw;
+            has_refused = true;
+            result.error = error.what();
+            log_error("{}", error.what());
+        }
         if (!quiet && result.outcome == ImageOutcome::UpToDate)
             log_info("{}: up to date", result.job.output.string());
-        else if (!quiet)
+        else if (!quiet && result.outcome != ImageOutcome::Failed)
             report(result.job.output, result.statistics);
         // Statistics of many frames are kept only for those who want them.
         if (!arguments.json) continue;
@@ -107,7 +120,8 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     // An interrupt may have come before the first.
     if (arguments.json && (is_sequence || !results.empty()))
         print_data(is_sequence ? to_json(results) : statistics_of(results.front()));
-    return interrupt_requested() ? interrupt_exit_code() : ExitCode::Success;
+    if (interrupt_requested()) return interrupt_exit_code();
+    return has_refused ? ExitCode::InvalidScene : ExitCode::Success;
 }
 
 ExitCode run_render(const RenderArguments& arguments) {
@@ -285,8 +299,8 @@ void add_render_command(CLI::App& app, Action& action) {
     add_strategies_options(*command, arguments);
     command->add_flag(
         "--force", arguments->force,
-        "Of a sequence or with --resume, render again what is up to date, and replace a part whatever it is; a "
-        "checkpoint is gone on with all the same");
+        "Render finished frames and images again, and replace any part; with --resume, a checkpoint is still gone on "
+        "with");
     add_tev_option(*command, arguments->tev, "Send the image as it grows, with its layers,");
     add_live_option(*command, arguments->live, "Show the image in a browser as it grows");
     command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");

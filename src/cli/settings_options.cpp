@@ -208,8 +208,8 @@ void add_settings_options(CLI::App& command, SettingsOverrides& overrides) {
     command
         .add_option(
             "--environment", overrides.environment,
-            "Environment image (EXR or HDR) in place of the scene's, or 'neutral' for white from everywhere, or "
-            "'none' for no light from afar")
+            "Environment image (EXR or HDR) in place of the scene's, of which only the rotation is kept, or 'neutral' "
+            "for white from everywhere, or 'none' for no light from afar")
         ->check(CLI::Validator(
             [](std::string& text) {
                 return text == kNoEnvironment || text == kNeutralEnvironment ? std::string() : CLI::ExistingFile(text);

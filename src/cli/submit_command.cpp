@@ -149,6 +149,8 @@ ExitCode run_submit(const SubmitArguments& arguments) {
         log_error("error: no scene directory was found; a scene directory holds a render.json or a glTF file");
         return ExitCode::InvalidScene;
     }
+    if (const std::string note = note_on_exposures(tasks, arguments.request.overrides); !note.empty())
+        log_warning("{}", note);
     const fs::path& output = arguments.request.farm.output;
     const FarmWork work = find_farm_work(arguments.request, tasks, submitted_before(arguments));
     if (interrupt_requested()) {

@@ -188,6 +188,10 @@ ImageF show_colors(ImageF image, const ImageInfo& part, const ViewArguments& arg
         convert_space(image, space, colors.default_working_space(), colors);
         space = colors.default_working_space();
     }
+    if (arguments.range && !arguments.quiet)
+        log_info(
+            "note: --range is for layers of numbers, and this one has colours: --exposure makes them darker or "
+            "brighter");
     const float exposure = arguments.exposure.value_or(std::clamp(part.exposure.value_or(0.0f), -64.0f, 64.0f));
     const DisplayView view = display_view(arguments, std::move(space), exposure, colors);
     attributes = display_attributes(view);

@@ -196,6 +196,10 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
                 "{} has no effect with '{}': it is for {}", option->second, type,
                 integrators_that([&](const IntegratorEntry& entry) { return entry.owns(setting.pointer); })));
     }
+    if (settings.film.crop && settings.film.overscan > 0.0f)
+        if (const auto option = settings.options.find("/film/overscan"); option != settings.options.end())
+            sentences.push_back(fmt::format("{} has no effect beside the window of {}, which may lie beyond the image",
+                                            option->second, settings.at("/crop").str()));
     const IntegratorEntry* const entry = find_integrator(type);
     if (entry != nullptr && entry->merges && settings.relative_error > 0.0 && settings.adaptive)
         for (const char* const pointer : {"/adaptive", "/min_spp"})

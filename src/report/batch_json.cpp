@@ -42,7 +42,8 @@ Json batch_object(const BatchTotals& sum) {
 }
 
 Json batch_object(const BatchUnit& unit) {
-    return {{"name", unit.name},
+    return {{"unit", unit.id},
+            {"name", unit.name},
             {"scene", unit.scene},
             {"frame", known(unit.frame)},
             {"variant", known(unit.variant)},

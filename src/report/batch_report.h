@@ -36,7 +36,8 @@ struct UnitSeconds {
 /// One image. The statistics are those of the file beside it, of the run that made it: units that are up to date have
 /// them too.
 struct BatchUnit {
-    std::string name{};  ///< unlike all others
+    std::string id{};    ///< path of its image below the output directory, without extension; unlike all others
+    std::string name{};  ///< name for people: its scene, and which frame, variant and camera of it
     std::string scene{};
     std::optional<int> frame{};
     std::string variant{};  ///< variant of the scene's materials; empty if none was asked for
@@ -60,7 +61,7 @@ struct BatchUnit {
     std::string halt_reason{};
     std::optional<UnitSeconds> seconds{};
     std::optional<double> estimated_seconds{};  ///< seconds that the plan expected
-    std::optional<double> fraction{};           ///< part of the samples that are taken while it is running, [0, 1]
+    std::optional<double> fraction{};           ///< part that is done while it is running, [0, 1]
     std::optional<double> seconds_left{};       ///< seconds until it is done, while it is running
     std::optional<double> rays_per_second{};
     std::optional<std::uint64_t> rays{};

@@ -160,15 +160,16 @@ Json to_json(const StrategiesReport& report) {
 }
 
 Json to_json(const ReferenceReport& reference) {
-    Json json{{"kind", reference.kind}, {"text", reference.text}, {"noise_relmse", reference.noise_rel_mse}};
-    if (!reference.weights.empty()) json["weights"] = reference.weights;
-    if (reference.spp > 0) {
-        json["spp"] = reference.spp;
-        json["seconds"] = reference.seconds;
-        json["cpu_seconds"] = reference.cpu_seconds;
-    }
-    if (reference.seeds.count > 0) json["seeds"] = {{"first", reference.seeds.first}, {"count", reference.seeds.count}};
-    return json;
+    const bool is_rendered = reference.spp > 0;
+    const auto& seeds = reference.seeds;
+    return {{"kind", reference.kind},
+            {"text", reference.text},
+            {"noise_relmse", reference.noise_rel_mse},
+            {"weights", reference.weights.empty() ? Json() : Json(reference.weights)},
+            {"spp", is_rendered ? Json(reference.spp) : Json()},
+            {"seconds", is_rendered ? Json(reference.seconds) : Json()},
+            {"cpu_seconds", is_rendered ? Json(reference.cpu_seconds) : Json()},
+            {"seeds", seeds.count > 0 ? Json{{"first", seeds.first}, {"count", seeds.count}} : Json()}};
 }
 
 Json to_json(const ReportedMetric& metric) {

@@ -6,6 +6,7 @@
 #include "core/write_file.h"
 #include "picture/output_paths.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <system_error>
@@ -134,6 +135,16 @@ std::optional<Checkpoint> CheckpointFiles::read(const Expected& expected, bool q
 bool CheckpointFiles::exist() const {
     std::error_code error;
     return std::filesystem::exists(newest_, error) || std::filesystem::exists(previous_, error);
+}
+
+bool CheckpointFiles::are_newer_than(const std::filesystem::path& file) const {
+    std::error_code error;
+    const auto written = std::filesystem::last_write_time(file, error);
+    if (error) return true;
+    return std::ranges::any_of(paths(), [&](const std::filesystem::path& path) {
+        const auto kept = std::filesystem::last_write_time(path, error);
+        return !error && kept > written;
+    });
 }
 
 void CheckpointFiles::remove() const {

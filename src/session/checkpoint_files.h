@@ -45,6 +45,8 @@ class CheckpointFiles {
     [[nodiscard]] std::array<std::filesystem::path, 2> paths() const { return {newest_, previous_}; }
     /// True if there is one.
     [[nodiscard]] bool exist() const;
+    /// True if `file` does not exist, or a checkpoint was written after it.
+    [[nodiscard]] bool are_newer_than(const std::filesystem::path& file) const;
     /// Once the image is complete.
     void remove() const;
 

@@ -45,7 +45,11 @@ std::filesystem::path frame_path(const std::filesystem::path& output, int frame)
 
 std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::filesystem::path& output,
                                  const std::string& name, const SettingsOverrides& overrides) {
-    const std::optional<FrameRange> frames = overrides.has("/frames") ? overrides.frames() : find_frames(scene);
+    // A moment that is asked for is one image, whatever frames the scene has.
+    const bool is_moment = overrides.has("/time_code") && !overrides.has("/frames");
+    const std::optional<FrameRange> frames = overrides.has("/frames") ? overrides.frames()
+                                             : is_moment              ? std::nullopt
+                                                                      : find_frames(scene);
     if (!frames) return {{scene, output, name, std::nullopt}};
     std::vector<ImageJob> jobs;
     jobs.reserve(frames->count());

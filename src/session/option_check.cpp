@@ -17,9 +17,10 @@ void check_options(const SettingsOverrides& overrides) {
         // The display may be the scene's own.
         if (!overrides.has("/color/display")) scene.settings.color.view.clear();
         (void)resolve_colors(scene.settings, ColorConfig::from_environment());
-        // Expressions may name what only the scene has.
+        // Expressions may name what only the scene has, and the limit of indirect light may be its own.
         std::erase_if(scene.settings.aovs, [](const AovDesc& aov) {
-            return aov.source.starts_with("light:") || aov.source.find('\'') != std::string::npos;
+            return aov.source == "clamped" || aov.source.starts_with("light:") ||
+                   aov.source.find('\'') != std::string::npos;
         });
         ProblemList ignored;
         (void)make_aov_plan(scene, ignored);

@@ -19,6 +19,8 @@ void apply_quality(Quality quality, RenderSettings& settings) {
     if (quality == Quality::Final) return;
     settings.spp = std::max(1, settings.spp / (quality == Quality::Draft ? 16 : 4));
     settings.options["/spp"] = "--quality";
+    // The median of more means than there are samples would leave some empty.
+    if (settings.robust_buckets > settings.spp) settings.robust_buckets = 0;
     if (quality == Quality::Preview) return;
     FilmSettings& film = settings.film;
     const FilmSettings before = film;
@@ -106,7 +108,11 @@ void SettingsOverrides::apply_environment(SceneDesc& scene) const {
     if (has("/studio")) throw SceneError({"--environment", {}}, "--studio puts another light in its place: give one");
     if (scene.settings.studio || *environment == kNoEnvironment) scene.settings.studio = false;
     if (const auto file = environment_file()) {
+        // What the scene says of its own image says nothing about this one, but for where its middle is to be.
+        const auto rotation = scene.environment.rotation;
+        scene.environment = {};
         scene.environment.enabled = true;
+        scene.environment.rotation = rotation;
         scene.environment.image = std::filesystem::absolute(*file);
         scene.environment.color = Rgb(1.0f);
         scene.inputs.push_back(scene.environment.image);

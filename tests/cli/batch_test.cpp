@@ -324,6 +324,8 @@ TEST_F(Batch, MakesWhatIsChosenAndTellsOfItWhereItIsAsked) {
     EXPECT_EQ(failed["units"].size(), 1u);
     EXPECT_EQ(failed["units"][0]["reason"], "failed last time");
     EXPECT_NE(run({"--failed", "--only", "a"}).err.find("no image in out failed last time"), std::string::npos);
+    EXPECT_EQ(json::parse(run({"--failed", "--only", "a", "--json"}).out)["units"].size(), 0u);
+    EXPECT_EQ(json::parse(run({"--failed", "--only", "a", "--json", "--dry-run"}).out)["units"].size(), 0u);
     // What is left out stays in the report.
     EXPECT_EQ(run({"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--only", "a"}).exit_code, 0);
     json report = json::parse(read_file(work_ / "out/report.json"));

@@ -667,6 +667,12 @@ TEST_F(CommandLine, FinishedFramesAreNotRenderedAgain) {
     EXPECT_EQ(results({}), (Names{"a.0000: rendered", "a.0001: rendered"}));
     EXPECT_EQ(results({"--frames", "0:2"}), (Names{"a.0000: up to date", "a.0001: up to date", "a.0002: rendered"}));
     EXPECT_EQ(results({"--frames", "2", "--force"}), (Names{"a.0002: rendered"}));
+    write_file(work_ / "a.0003.checkpoint", "damaged");
+    const ProgramResult refused =
+        run({"render", box, "--quiet", "--json", "-o", "a.###.exr", "--frames", "3:4", "--resume"});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_EQ(frame_results(refused), (Names{"a.0003: failed", "a.0004: rendered"})) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "a.0003.checkpoint")) << refused.err;
     // Motion vectors and headers have the rate.
     EXPECT_EQ(results({"--fps", "25"}), (Names{"a.0000: rendered", "a.0001: rendered"}));
     const ProgramResult batch = run({"batch", scenes(), "-o", "out", "--quiet", "--json", "--no-probe"});

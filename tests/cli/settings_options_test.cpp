@@ -55,6 +55,12 @@ TEST(SettingsOverrides, QualityScalesSizeAndSamples) {
     parse({"--quality", "draft"}).apply(least);
     EXPECT_EQ(least.film.width, 1);
     EXPECT_EQ(least.spp, 1);
+    for (const int spp : {100, 112}) {
+        RenderSettings robust = settings_of(641, 360, spp);
+        robust.robust_buckets = 7;
+        parse({"--quality", "draft"}).apply(robust);
+        EXPECT_EQ(robust.robust_buckets, spp == 112 ? 7 : 0) << "no bucket may stay empty";
+    }
 }
 
 TEST(SettingsOverrides, DraftKeepsTheCropInsideTheHalvedImage) {

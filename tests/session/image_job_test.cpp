@@ -27,6 +27,9 @@ TEST(ImageJobs, TheCommandLinesFramesComeBeforeTheScenes) {
     ASSERT_EQ(jobs.size(), 2u);
     EXPECT_EQ(jobs[1].output, "a.0007.exr");
     EXPECT_EQ(jobs[1].frame, 7);
+    SettingsOverrides moment;
+    moment.give("--time-code", "1.5");
+    EXPECT_EQ(image_jobs(folder.path(), "a.exr", "a", moment)[0].output, "a.exr");
     SettingsOverrides overrides;
     overrides.give("--frames", "1");
     EXPECT_EQ(image_jobs(folder / "scene.gltf", "a.exr", "a", overrides)[0].output, "a.0001.exr");
