@@ -48,15 +48,17 @@ std::string merge_command(const FarmImage& image, const FarmOptions& options) {
     std::string parts;
     for (const SampleRange& range : image.ranges)
         parts += fmt::format(" {}", quoted(part_file(folder, image.job, range).string()));
+    // Merging is the same with all instruction sets: a node that lacks that of the renders can do it.
+    const std::string merge = fmt::format("env -u ETENDUE_ISA {} merge", quoted(options.program.string()));
     // Renamed at once: whoever is ended in the middle of removing parts has left none that look as if some were
     // missing.
     const std::string from = quoted(folder.string());
     const std::string away = quoted(folder.string() + ".merged");
     return fmt::format(
-        "if [ -e {0} ] || ! [ -e {1} ]; then {2} merge{3} -o {4} --quiet{5} && rm -rf -- {6} && mv -T -- {0} {6}; fi "
+        "if [ -e {0} ] || ! [ -e {1} ]; then {2}{3} -o {4} --quiet{5} && rm -rf -- {6} && mv -T -- {0} {6}; fi "
         "&& "
         "rm -rf -- {6}",
-        from, quoted(OutputPaths::beside(image.job.output).json.string()), quoted(options.program.string()), parts,
+        from, quoted(OutputPaths::beside(image.job.output).json.string()), merge, parts,
         quoted(image.job.output.string()), options.depth == PixelDepth::Float ? " --float" : "", away);
 }
 

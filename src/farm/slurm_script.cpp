@@ -1,5 +1,6 @@
 #include "farm/slurm_script.h"
 
+#include "processor/ray_code.h"
 #include "session/usage_error.h"
 
 #include <algorithm>
@@ -75,6 +76,7 @@ std::string slurm_script(const JobArray& array, const std::string& job_name, con
                                      {"MINUTES", fmt::format("{}", array.needs.minutes)},
                                      {"LOG", fmt::format("logs/{}.%a.log", array.name)},
                                      {"TASKS", tasks_file_name(array.name)},
+                                     {"ISA", std::string(instruction_set_name(ray_code().instruction_set))},
                                      {"RESTARTS", fmt::format("{}", kMostRestarts)},
                                      {"OPTIONS", option_lines(options)}});
 }

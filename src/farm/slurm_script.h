@@ -21,8 +21,8 @@ struct SlurmOptions {
 void check_options(const SlurmOptions& options);
 
 /// The script of `array`, which finds its commands in ARRAY.tasks and writes to logs/ARRAY.INDEX.log, in the directory
-/// that it is run in. `job_name` is its name for Slurm, letters, digits and "-." only. Throws what
-/// `check_options` throws.
+/// that it is run in. Its tasks run with the instruction set that runs here. `job_name` is its name for Slurm, letters,
+/// digits and "-." only. Throws what `check_options` throws.
 [[nodiscard]] std::string slurm_script(const JobArray& array, const std::string& job_name, const SlurmOptions& options);
 
 /// Names of such files, in the directory of the submission.

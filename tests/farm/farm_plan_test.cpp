@@ -83,7 +83,7 @@ TEST(FarmPlan, PartsOfOneImageHaveOneIndexAndAreMergedByIt) {
         << part;
     EXPECT_EQ(two.arrays[2].commands[2],
               "if [ -e '/out/.etendue/parts/s.0002.exr' ] || ! [ -e '/out/s.0002.json' ]; then "
-              "'/bin/etendue' merge '/out/.etendue/parts/s.0002.exr/0-32.0002.partial' "
+              "env -u ETENDUE_ISA '/bin/etendue' merge '/out/.etendue/parts/s.0002.exr/0-32.0002.partial' "
               "'/out/.etendue/parts/s.0002.exr/32-64.0002.partial' -o '/out/s.0002.exr' --quiet && "
               "rm -rf -- '/out/.etendue/parts/s.0002.exr.merged' && "
               "mv -T -- '/out/.etendue/parts/s.0002.exr' '/out/.etendue/parts/s.0002.exr.merged'; fi && "

@@ -2,6 +2,7 @@
 
 #include "farm/slurm.h"
 #include "process/run_command.h"
+#include "processor/ray_code.h"
 #include "program/small_files.h"
 #include "session/usage_error.h"
 
@@ -28,6 +29,13 @@ TEST(SlurmScript, SaysWhatSlurmIsToDo) {
     write_file(folder / "script.sh", script);
     const CommandResult check = run_command({"bash", "-n", (folder / "script.sh").string()});
     EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+// What other submissions have left is judged by the instruction set of the machine that submits.
+TEST(SlurmScript, TasksUseTheInstructionSetThatSubmits) {
+    const std::string script = slurm_script(kArray, "n", {.threads = 1, .max_running = 0, .options = {}});
+    const std::string name(instruction_set_name(ray_code().instruction_set));
+    EXPECT_NE(script.find("\nexport ETENDUE_ISA=" + name + "\n"), std::string::npos) << script;
 }
 
 TEST(SlurmScript, TakesOptionsOfTheClusterButNothingElse) {

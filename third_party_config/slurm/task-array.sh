@@ -13,6 +13,8 @@
 #SBATCH --signal=B:USR2@60
 @OPTIONS@
 set -u
+# Parts and checkpoints belong to the instruction set that began them: all nodes use that of the machine that submitted.
+export ETENDUE_ISA=@ISA@
 most_restarts=@RESTARTS@
 tasks=@TASKS@
 
