@@ -93,6 +93,13 @@ FilmSize film_size_of(const SceneDesc& scene) {
     return size;
 }
 
+int warning_seconds_for(const FilmSize& size) {
+    constexpr double kBytesPerSecond = 50e6;  // of a disk that many nodes write to
+    constexpr double kMostSeconds = 65535.0;  // that Slurm takes
+    const double writing = static_cast<double>(size.bytes() + size.second_bytes()) / kBytesPerSecond;
+    return static_cast<int>(std::min(kLeastWarningSeconds + writing, kMostSeconds));
+}
+
 TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts) {
     // The coefficients of docs/farm.md, which tools/lab/farm-model has measured.
     constexpr double kStart = 0.223;

@@ -74,6 +74,10 @@ struct FilmSize {
 /// Returns the needs of a task with `threads` threads that takes `share` of the samples of an image, (0, 1].
 [[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads);
 
+/// Returns the seconds before its time is up at which a task is to write its checkpoint: kLeastWarningSeconds, and the
+/// time that a slow disk takes for its films.
+[[nodiscard]] int warning_seconds_for(const FilmSize& size);
+
 /// Returns the needs of the task that merges `parts` parts of an image: in memory are the sums, a part, and as much for
 /// reading it; the time is that of the model in docs/farm.md, three times, as for renders.
 [[nodiscard]] TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts);

@@ -94,6 +94,7 @@ class TaskPlanner {
         for (const std::size_t i : images) {
             needs.minutes = std::max(needs.minutes, (images_[i].*of).minutes);
             needs.mebibytes = std::max(needs.mebibytes, (images_[i].*of).mebibytes);
+            needs.warning_seconds = std::max(needs.warning_seconds, (images_[i].*of).warning_seconds);
         }
         return needs;
     }

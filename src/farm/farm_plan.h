@@ -18,10 +18,14 @@
 
 namespace etendue {
 
+/// Seconds that a task has at least to write its checkpoint, from when it is told that its time is up soon.
+inline constexpr int kLeastWarningSeconds = 60;
+
 /// Holds what a task may use at most; the scheduler ends tasks that use more.
 struct TaskNeeds {
     int minutes = 0;
     int mebibytes = 0;
+    int warning_seconds = kLeastWarningSeconds;  ///< seconds to write its checkpoint, where so much time is left
 
     friend auto operator<=>(const TaskNeeds&, const TaskNeeds&) = default;
 };

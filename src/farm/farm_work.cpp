@@ -141,6 +141,7 @@ class WorkFinder {
             share = std::max(share, static_cast<double>(range.end - range.begin) / settings.spp);
         if (!request_.task_minutes || !request_.task_memory)
             scene.needs = needs_of(probe_scene(first, request_.farm.options), size, share, request_.farm.threads);
+        scene.needs.warning_seconds = warning_seconds_for(size);
         scene.merge_needs = merge_needs_of(size, scene.ranges.size());
         if (request_.task_minutes) {
             scene.needs.minutes = *request_.task_minutes;

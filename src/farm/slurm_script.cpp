@@ -16,6 +16,11 @@ namespace {
 /// Times that a task is started again because its time was up; more than that is a loop.
 constexpr int kMostRestarts = 20;
 
+/// Seconds before the end of its time at which a task is told so; at least the first half of its time is for its work.
+int warning_seconds_of(const TaskNeeds& needs) {
+    return std::max(kLeastWarningSeconds, std::min(needs.warning_seconds, needs.minutes * 60 / 2));
+}
+
 bool is_harmless(char c) {
     constexpr std::string_view kPunctuation = "-_=.,:;/@+%[]&|*!";
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -74,6 +79,7 @@ std::string slurm_script(const JobArray& array, const std::string& job_name, con
                                      {"THREADS", fmt::format("{}", options.threads)},
                                      {"MEMORY", fmt::format("{}M", array.needs.mebibytes)},
                                      {"MINUTES", fmt::format("{}", array.needs.minutes)},
+                                     {"WARNING", fmt::format("{}", warning_seconds_of(array.needs))},
                                      {"LOG", fmt::format("logs/{}.%a.log", array.name)},
                                      {"TASKS", tasks_file_name(array.name)},
                                      {"ISA", std::string(instruction_set_name(ray_code().instruction_set))},

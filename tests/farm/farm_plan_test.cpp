@@ -201,6 +201,21 @@ TEST(FarmNeeds, OfRendersHaveRoomForWritingAndForASecondFilm) {
     EXPECT_NEAR(two.mebibytes - some.mebibytes, 1.5 * 48.0 * kPixels / (1 << 20), 1.0);
 }
 
+TEST(FarmNeeds, WarningsAreLongEnoughToWriteTheFilms) {
+    constexpr std::uint64_t kPixels = 100'000'000;
+    EXPECT_EQ(warning_seconds_for({.pixels = 1000}), kLeastWarningSeconds);
+    // By hand: 48 bytes a pixel and film, 50 MB a second.
+    EXPECT_EQ(warning_seconds_for({.pixels = kPixels}), 60 + 96);
+    EXPECT_EQ(warning_seconds_for({.pixels = kPixels, .has_second_film = true}), 60 + 192);
+    EXPECT_EQ(warning_seconds_for({.pixels = 1000 * kPixels}), 65535) << "Slurm takes no more";
+    std::vector<FarmImage> images{image(0, 2), image(1, 2)};
+    images[1].needs.warning_seconds = 156;
+    const FarmPlan two = plan(images);
+    ASSERT_EQ(two.arrays.size(), 3u);
+    EXPECT_EQ(two.arrays[1].needs.warning_seconds, 156);
+    EXPECT_EQ(two.arrays[2].needs.warning_seconds, kLeastWarningSeconds) << "a merge has no checkpoint";
+}
+
 TEST(FarmPlan, OnlyMissingPartsAreMended) {
     std::vector<FarmImage> images{image(0, 4), image(1, 4), image(2, 4), image(3, 4)};
     images[1].missing = {images[1].ranges[2]};

@@ -6,6 +6,7 @@
 #include "program/small_files.h"
 #include "session/usage_error.h"
 
+#include <cstddef>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -29,6 +30,22 @@ TEST(SlurmScript, SaysWhatSlurmIsToDo) {
     write_file(folder / "script.sh", script);
     const CommandResult check = run_command({"bash", "-n", (folder / "script.sh").string()});
     EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+// A large checkpoint on a slow disk takes longer than a minute. Half of the time is for rendering.
+TEST(SlurmScript, TasksAreWarnedEarlyEnoughForTheirCheckpoint) {
+    const auto warning = [](int minutes, int seconds) {
+        JobArray array = kArray;
+        array.needs = {minutes, 2048, seconds};
+        const std::string script = slurm_script(array, "n", {.threads = 1, .max_running = 0, .options = {}});
+        const std::string option = "\n#SBATCH --signal=B:USR2@";
+        const std::size_t begin = script.find(option) + option.size();
+        return script.substr(begin, script.find('\n', begin) - begin);
+    };
+    EXPECT_EQ(warning(90, 156), "156");
+    EXPECT_EQ(warning(90, 60), "60");
+    EXPECT_EQ(warning(4, 156), "120");
+    EXPECT_EQ(warning(1, 156), "60");
 }
 
 // What other submissions have left is judged by the instruction set of the machine that submits.

@@ -10,7 +10,7 @@
 #SBATCH --output=@LOG@
 #SBATCH --open-mode=append
 #SBATCH --requeue
-#SBATCH --signal=B:USR2@60
+#SBATCH --signal=B:USR2@@WARNING@
 @OPTIONS@
 set -u
 # Parts and checkpoints belong to the instruction set that began them: all nodes use that of the machine that submitted.
@@ -30,7 +30,7 @@ printf '==> %s on %s, task %s_%s, start %d\n' "$(date '+%F %T')" "$(hostname)" "
 line=$(LC_ALL=C sed -n "$((SLURM_ARRAY_TASK_ID + 1)){p;q}" "$tasks")
 [[ -n $line ]] || fail "$tasks has no line for this task"
 
-# Slurm tells this shell alone a minute before the time is up; etendue then writes its checkpoint.
+# Slurm tells this shell alone some time before the time is up; etendue then writes its checkpoint.
 out_of_time=no child=
 trap 'out_of_time=yes; kill -TERM "$child" 2>/dev/null' USR2
 # Whoever cancels or preempts the task tells all of its processes. A second one would end etendue without a checkpoint.
