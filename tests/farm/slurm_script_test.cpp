@@ -3,10 +3,13 @@
 #include "farm/slurm.h"
 #include "process/run_command.h"
 #include "processor/ray_code.h"
+#include "program/fake_slurm.h"
 #include "program/small_files.h"
 #include "session/usage_error.h"
 
 #include <cstddef>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -64,6 +67,30 @@ TEST(SlurmScript, TakesOptionsOfTheClusterButNothingElse) {
          {"partition", "-p x", "--x=a b", "--x=$(run)", "--x\nrm -rf /", "--x=`run`", "--x='", "--x#"})
         EXPECT_THROW((void)slurm_script(kArray, "n", {.threads = 1, .max_running = 0, .options = {bad}}), UsageError)
             << bad;
+}
+
+// Slurm counts preemptions and nodes that fail as restarts, too.
+TEST(SlurmScript, OnlyTimesThatWereUpAreCounted) {
+    const TestFolder folder;
+    const FakeSlurm slurm(folder / "slurm");
+    slurm.set_queue("RUNNING");
+    JobArray array = kArray;
+    // What Slurm tells the shell; and a task that SIGTERM ends.
+    array.commands = {"sleep 0.2; kill -USR2 $$; exec sleep 60"};
+    write_file(folder / "render-3.sh", slurm_script(array, "n", {.threads = 1, .max_running = 0, .options = {}}));
+    write_file(folder / "render-3.tasks", array.commands[0] + "\n");
+    std::filesystem::create_directories(folder / "logs");
+    const auto log = [&] { return read_file(folder / "logs/render-3.0.log"); };
+    const std::filesystem::path requeues = folder / "logs/render-3.0.requeues";
+    ::setenv("SLURM_RESTART_COUNT", "100", 1);
+    EXPECT_EQ(slurm.run_task(folder.path(), "render-3", 0).exit_code, 0) << log();
+    EXPECT_EQ(read_file(requeues), ".");
+    EXPECT_EQ(slurm.calls("scontrol").size(), 1u);
+    write_file(requeues, std::string(20, '.'));
+    EXPECT_EQ(slurm.run_task(folder.path(), "render-3", 0).exit_code, 1);
+    ::unsetenv("SLURM_RESTART_COUNT");
+    EXPECT_NE(log().find("the time was up 21 times"), std::string::npos) << log();
+    EXPECT_EQ(slurm.calls("scontrol").size(), 1u);
 }
 
 TEST(Slurm, TasksAreReadFromItsList) {

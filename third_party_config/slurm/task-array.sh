@@ -49,7 +49,10 @@ done
 # A task that was cancelled is not running any more, and stays cancelled.
 task=${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID
 [[ $(squeue --noheader --format=%T --jobs="$task") == RUNNING ]] || exit "$status"
-[[ ${SLURM_RESTART_COUNT:-0} -lt $most_restarts ]] ||
+# A byte for each time. SLURM_RESTART_COUNT also grows with what is preempted and with nodes that fail.
+requeues=logs/${tasks%.tasks}.$SLURM_ARRAY_TASK_ID.requeues
+printf . >>"$requeues" || fail "$PWD/$requeues cannot be written"
+[[ $(wc -c <"$requeues") -le $most_restarts ]] ||
     fail "the time was up $((most_restarts + 1)) times; submit with a larger --task-minutes"
 printf 'the time is up: this goes on from its checkpoint\n'
 scontrol requeue "$task"
