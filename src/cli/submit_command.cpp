@@ -18,6 +18,7 @@
 #include "session/usage_error.h"
 #include "world/compile.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -25,6 +26,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -265,8 +267,26 @@ std::vector<GivenOption> options_of_tasks(std::vector<GivenOption> given) {
     return given;
 }
 
+/// Makes the paths absolute that are named by $OCIO and listed by $ETENDUE_ASSETS: tasks get these variables, and run
+/// in another directory.
+void make_environment_absolute() {
+    if (const char* const config = std::getenv("OCIO")) {
+        const std::string_view name = config;
+        // OpenColorIO has configs of its own, which are no files.
+        if (!name.empty() && !name.starts_with("ocio://")) ::setenv("OCIO", fs::absolute(name).c_str(), 1);
+    }
+    if (const char* const listed = std::getenv("ETENDUE_ASSETS")) {
+        std::istringstream list(listed);
+        std::string absolute;
+        for (std::string directory; std::getline(list, directory, ':');)
+            if (!directory.empty()) absolute += (absolute.empty() ? "" : ":") + fs::absolute(directory).string();
+        ::setenv("ETENDUE_ASSETS", absolute.c_str(), 1);
+    }
+}
+
 /// Makes of the options as they were given what they mean.
 void complete(SubmitArguments& arguments, std::vector<GivenOption> overrides) {
+    make_environment_absolute();
     FarmOptions& farm = arguments.request.farm;
     farm.output = fs::absolute(arguments.output).lexically_normal();
     if (!farm.output.has_filename()) farm.output = farm.output.parent_path();

@@ -1,10 +1,12 @@
 // etendue submit from outside, with programs in the place of Slurm's.
+#include "color/built_in_config.h"
 #include "core/byte_size.h"
 #include "program/fake_slurm.h"
 #include "program/run_program.h"
 #include "program/small_files.h"
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -134,6 +136,21 @@ TEST_F(Submit, TheProgramIsFoundFromWhereTasksRun) {
     own.insert(own.end(), {"--force"});
     const std::string found = read_file(fs::path(submitted(own)["directory"].get<std::string>()) / "render-0.tasks");
     EXPECT_TRUE(found.starts_with("exec 'etendue-2' render")) << "in PATH: " << found;
+}
+
+TEST_F(Submit, FilesThatTheEnvironmentNamesAreFoundFromWhereTasksRun) {
+    scene("a");
+    write_file(work_ / "c.ocio", std::string(built_in_config_text()));
+    ::setenv("OCIO", "c.ocio", 1);
+    ::setenv("ETENDUE_ASSETS", "skies::/nowhere", 1);
+    const ProgramResult result = submit(small_);
+    ::unsetenv("OCIO");
+    ::unsetenv("ETENDUE_ASSETS");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string variables = slurm_.environment();
+    EXPECT_NE(variables.find("OCIO=" + (work_ / "c.ocio").string() + "\n"), std::string::npos) << variables;
+    EXPECT_NE(variables.find("ETENDUE_ASSETS=" + (work_ / "skies").string() + ":/nowhere\n"), std::string::npos)
+        << variables;
 }
 
 /// Nodes of different memory would hold textures in different ways, and their parts could not be merged.

@@ -32,6 +32,7 @@ if [ "$number" -gt "$(cat limit)" ]; then
     exit 1
 fi
 echo "$number" >jobs
+env >environment
 [ "$number" -ne "$(cat interrupt)" ] || kill -INT $PPID
 echo "$number;a-cluster"
 )sh");
@@ -78,6 +79,10 @@ std::vector<std::vector<std::string>> FakeSlurm::calls(const std::string& progra
         for (std::string& word : words) std::getline(lines, word);
     }
     return calls;
+}
+
+std::string FakeSlurm::environment() const {
+    return read_file(directory_ / "environment");
 }
 
 CommandResult FakeSlurm::run_task(const fs::path& submission, const std::string& array, std::size_t index) const {

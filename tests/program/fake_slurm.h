@@ -29,6 +29,8 @@ class FakeSlurm {
     void set_queue(const std::string& lines) const;
     /// The words of each call of a program, oldest first.
     [[nodiscard]] std::vector<std::vector<std::string>> calls(const std::string& program) const;
+    /// Returns the environment of the last sbatch that took a job, which its tasks get: lines NAME=VALUE.
+    [[nodiscard]] std::string environment() const;
 
     /// Runs the script of a submitted array for one task as slurmd does. Its output goes to its log.
     [[nodiscard]] CommandResult run_task(const std::filesystem::path& submission, const std::string& array,
