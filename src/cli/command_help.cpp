@@ -24,7 +24,8 @@ std::vector<std::string> choices_of(const std::string& type) {
 }
 
 OptionHelp::Value value_of(const CLI::Option& option, const std::vector<std::string>& choices) {
-    if (option.get_type_size() == 0) return OptionHelp::Value::None;
+    // The type of a flag has a size in CLI11, too.
+    if (option.get_items_expected_max() == 0) return OptionHelp::Value::None;
     if (!choices.empty()) return OptionHelp::Value::Choice;
     const std::string type = option.get_type_name();
     const bool is_number = std::ranges::any_of(std::vector<std::string_view>{"INT", "UINT", "FLOAT"},
