@@ -28,7 +28,8 @@ missing_packages() {
     local package
     while read -r package; do
         # dpkg-query fails for a package that it has never heard of, and prints another state for one that was removed.
-        [[ $(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null) == ii* ]] || printf '%s\n' "$package"
+        # The first letter is what is wanted: one that is held ('hi') is there, too.
+        [[ $(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null) == ?i* ]] || printf '%s\n' "$package"
     done
 }
 
