@@ -10,8 +10,10 @@ install(DIRECTORY addons/blender/etendue DESTINATION "${CMAKE_INSTALL_DATADIR}/e
   PATTERN __pycache__ EXCLUDE)
 install(FILES "${ETENDUE_BLENDER_ZIP}" DESTINATION "${CMAKE_INSTALL_DATADIR}/etendue/blender" COMPONENT runtime)
 install(FILES third_party_config/ocio/config.ocio DESTINATION "${CMAKE_INSTALL_DATADIR}/etendue" COMPONENT runtime)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE SECURITY.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+# With it docs/tutorial.md begins.
+install(FILES examples/glass_of_water.py DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT runtime)
 
 if(ETENDUE_BUILD_LIBRARY)
   include(CMakePackageConfigHelpers)
@@ -24,7 +26,8 @@ if(ETENDUE_BUILD_LIBRARY)
   write_basic_package_version_file("${PROJECT_BINARY_DIR}/EtendueConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
   install(FILES "${PROJECT_BINARY_DIR}/EtendueConfigVersion.cmake" DESTINATION "${package_directory}"
     COMPONENT development)
-  install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT development)
+  install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT development
+    PATTERN glass_of_water.py EXCLUDE)
 endif()
 
 # All that is installed, without tests.

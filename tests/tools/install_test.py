@@ -9,6 +9,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from docs_test import dead_links
+
 BUILD, SOURCE, CXX = (Path(argument) for argument in sys.argv[1:4])
 PUBLIC = re.compile(r"(\w+ for )?etendue::(Scene|Picture|Error|render|version)\b")
 
@@ -52,13 +54,18 @@ class InstallTest(unittest.TestCase):
                      "share/etendue/blender/etendue/blender_manifest.toml", "share/etendue/scenes/render.schema.json",
                      "share/etendue/scenes/cornell-box/scene.gltf", "share/etendue/scenes/cornell-box/scene.bin",
                      "share/doc/etendue/README.md", "share/doc/etendue/docs/render-json.md",
-                     "share/doc/etendue/examples/render_scene.cpp"):
+                     "share/doc/etendue/examples/render_scene.cpp", "share/doc/etendue/examples/glass_of_water.py"):
             self.assertIn(file, files)
         for pattern in (r"lib(/[\w-]+)?/libetendue\.so\.\d+\.\d+\.\d+", r"lib(/[\w-]+)?/libetendue\.so",
                         r"lib(/[\w-]+)?/cmake/Etendue/EtendueConfig(Version)?\.cmake",
                         r"share/etendue/blender/etendue-blender-\d+\.\d+\.\d+\.zip"):
             self.assertTrue(any(re.fullmatch(pattern, file) for file in files), pattern)
         self.assertFalse([file for file in files if file.endswith((".a", "CMakeLists.txt")) and "examples" not in file])
+
+    def test_links_of_installed_pages_lead_somewhere(self):
+        dead = dead_links((self.prefix / "share/doc/etendue").resolve())
+        # Sources are not installed.
+        self.assertEqual([line for line in dead if not re.search(r": (\.\./)?src/", line)], [])
 
     def test_the_installed_program_renders_an_installed_scene(self):
         scene = self.prefix / "share/etendue/scenes/cornell-box"
