@@ -7,6 +7,7 @@ import stat
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from tool_module import load_tool
 
@@ -22,6 +23,15 @@ class CourseTest(unittest.TestCase):
                 self.assertTrue(tool.COMMAND.findall(text))
                 self.assertEqual(len(tool.ROW.findall(text)), text.count("\n| `"), "each row of figures is read")
                 self.assertTrue(tool.ROW.findall(text))
+
+    def test_pictures_need_oiiotool_before_anything_is_rendered(self):
+        said = io.StringIO()
+        with tempfile.TemporaryDirectory() as name, mock.patch.object(tool.shutil, "which", return_value=None), \
+                mock.patch.object(tool.sys, "argv", ["course", "--pictures", "--program", __file__, "-o", f"{name}/out"]), \
+                contextlib.redirect_stderr(said):
+            self.assertEqual(tool.main(), 2)
+            self.assertFalse(Path(name, "out").exists())
+        self.assertIn("openimageio-tools", said.getvalue())
 
     def test_sizes_are_scaled(self):
         self.assertEqual(tool.scaled("etendue render a --size 640x360 -o b", 4), "etendue render a --size 160x90 -o b")

@@ -1,10 +1,14 @@
 """Tests of the gallery: its bodies are closed, as large as they should be and face outwards; each scene has its place on the page."""
 
 import collections
+import contextlib
+import io
 import math
 import sys
+import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools/gen")]
@@ -80,6 +84,17 @@ class ShapesTest(unittest.TestCase):
 class PageTest(unittest.TestCase):
     def test_every_scene_is_a_picture(self):
         self.assertEqual(sorted(load_tool("gallery").GALLERY), sorted(SCENES))
+
+    def test_pictures_need_oiiotool_before_anything_is_rendered(self):
+        gallery, said = load_tool("gallery"), io.StringIO()
+        with tempfile.TemporaryDirectory() as name, mock.patch.object(gallery.shutil, "which", return_value=None), \
+                mock.patch.object(gallery.sys, "argv", ["gallery", "glasses", "-o", f"{name}/out"]), \
+                mock.patch.object(gallery, "make", side_effect=AssertionError), contextlib.redirect_stderr(said):
+            with self.assertRaises(SystemExit) as end:
+                gallery.main()
+            self.assertEqual(end.exception.code, 2)
+            self.assertFalse(Path(name, "out").exists())
+        self.assertIn("openimageio-tools", said.getvalue())
 
 
 if __name__ == "__main__":
