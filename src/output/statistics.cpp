@@ -51,6 +51,7 @@ Json to_object(const std::vector<BrightContribution>& brightest) {
 
 std::string to_json(const RenderStatistics& s) {
     Json json;
+    json["format"] = 1;  // docs/statistics.md says what that promises
     json["software"] = software_name();
     json["instruction_set"] = s.instruction_set;
     json["scene"] = s.scene;

@@ -1,5 +1,10 @@
 #include "output/statistics.h"
 
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -83,7 +88,7 @@ RenderStatistics make_statistics() {
 TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
-        "scene": "cornell-box", "integrator": "bdpt", "integrator_choice": "'path', since nothing else is needed", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
+        "format": 1, "scene": "cornell-box", "integrator": "bdpt", "integrator_choice": "'path', since nothing else is needed", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
         "settings": {"/spp": 8, "/color/exposure": 0.1}, "requested_settings": {"/spp": 8},
         "command": "etendue render box",
         "inputs": [{"path": "textures/sky.exr", "size": 12, "modified": 34, "content": "0123"}],
@@ -114,6 +119,32 @@ TEST(StatisticsJson, HasEveryField) {
     }
     EXPECT_EQ(json.size(), expected.size() + 1) << "all of the above and the software";
     EXPECT_EQ(json.at("software").get<std::string>().substr(0, 8), "Etendue ");
+}
+
+TEST(StatisticsJson, BeginsWithItsFormat) {
+    EXPECT_TRUE(to_json({}).starts_with("{\n  \"format\": 1,"));
+}
+
+/// The keys of `json`, and those of the objects in it that do not have names of the user's.
+void add_keys(const nlohmann::json& json, std::set<std::string>& keys) {
+    if (json.is_array())
+        for (const auto& entry : json) add_keys(entry, keys);
+    if (!json.is_object()) return;
+    for (const auto& [key, value] : json.items()) {
+        keys.insert(key);
+        const bool has_names =
+            key == "settings" || key == "requested_settings" || key == "file_sizes" || key == "libraries";
+        if (!has_names) add_keys(value, keys);
+    }
+}
+
+TEST(StatisticsJson, ItsPageHasEveryKey) {
+    std::ifstream stream(ETENDUE_SOURCE_DIR "/docs/statistics.md");
+    const std::string page(std::istreambuf_iterator<char>(stream), {});
+    std::set<std::string> keys;
+    add_keys(nlohmann::json::parse(to_json(make_statistics())), keys);
+    EXPECT_GT(keys.size(), 70u);
+    for (const std::string& key : keys) EXPECT_NE(page.find("`" + key + "`"), std::string::npos) << key;
 }
 
 TEST(StatisticsJson, EmptyStatisticsHaveNoRatesAndNoHoles) {
