@@ -80,16 +80,16 @@ TEST(SlurmScript, OnlyTimesThatWereUpAreCounted) {
     write_file(folder / "render-3.sh", slurm_script(array, "n", {.threads = 1, .max_running = 0, .options = {}}));
     write_file(folder / "render-3.tasks", array.commands[0] + "\n");
     std::filesystem::create_directories(folder / "logs");
-    const auto log = [&] { return read_file(folder / "logs/render-3.0.log"); };
+    const auto output = [&] { return read_file(folder / "logs/render-3.0.log"); };
     const std::filesystem::path requeues = folder / "logs/render-3.0.requeues";
     ::setenv("SLURM_RESTART_COUNT", "100", 1);
-    EXPECT_EQ(slurm.run_task(folder.path(), "render-3", 0).exit_code, 0) << log();
+    EXPECT_EQ(slurm.run_task(folder.path(), "render-3", 0).exit_code, 0) << output();
     EXPECT_EQ(read_file(requeues), ".");
     EXPECT_EQ(slurm.calls("scontrol").size(), 1u);
     write_file(requeues, std::string(20, '.'));
     EXPECT_EQ(slurm.run_task(folder.path(), "render-3", 0).exit_code, 1);
     ::unsetenv("SLURM_RESTART_COUNT");
-    EXPECT_NE(log().find("the time was up 21 times"), std::string::npos) << log();
+    EXPECT_NE(output().find("the time was up 21 times"), std::string::npos) << output();
     EXPECT_EQ(slurm.calls("scontrol").size(), 1u);
 }
 
