@@ -672,7 +672,7 @@ TEST_F(CommandLine, FinishedFramesAreNotRenderedAgain) {
         run({"render", box, "--quiet", "--json", "-o", "a.###.exr", "--frames", "3:4", "--resume"});
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_EQ(frame_results(refused), (Names{"a.0003: failed", "a.0004: rendered"})) << refused.err;
-    EXPECT_TRUE(contains(refused.err, "a.0003.checkpoint")) << refused.err;
+    EXPECT_NE(refused.err.find("a.0003.checkpoint"), std::string::npos) << refused.err;
     // Motion vectors and headers have the rate.
     EXPECT_EQ(results({"--fps", "25"}), (Names{"a.0000: rendered", "a.0001: rendered"}));
     const ProgramResult batch = run({"batch", scenes(), "-o", "out", "--quiet", "--json", "--no-probe"});

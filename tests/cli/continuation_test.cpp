@@ -78,7 +78,7 @@ class Continuation : public testing::Test {
 class ContinuationOf : public Continuation, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ContinuationOf, ResumesToTheSameBytes) {
-    constexpr int kSpp = 4000;
+    constexpr int kSpp = 1500;
     const Arguments with{"--integrator", GetParam(), "--aov", "direct", "--aov", "variance", "--aov", "denoising"};
     ASSERT_EQ(run(render(kSpp, "whole.exr", with)).exit_code, 0);
     Arguments first = render(kSpp, "a.exr", with);
