@@ -28,6 +28,11 @@ struct CaughtShadow {
                                          const Interior& interior, const SampleNumbers& numbers,
                                          SampleTracer* tracer = nullptr);
 
+/// Returns the alpha of a sample that sees what lies behind the whole scene through `throughput`.
+[[nodiscard]] inline float alpha_over_background(const Rgb& throughput) {
+    return average(Rgb(1.0f) - throughput);
+}
+
 /// Holds what the camera sees in the place of a surface.
 struct SeenInPlace {
     float passed = 0.0f;     ///< share of what lies behind the whole scene that shows, [0, 1]

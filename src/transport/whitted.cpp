@@ -60,7 +60,7 @@ struct WhittedLight {
     /// Adds what lies behind the whole scene: the environment, or nothing where the camera does not see that.
     void see_environment(const EyePath& path) {
         if (world.environment().met(true).empty())
-            found.alpha -= average(path.throughput);
+            found.alpha += alpha_over_background(path.throughput) - 1.0f;
         else if (lengths.is_long_enough(path.edges))
             found.seen += met_light(world, path, environment_vertex(path.ray.direction));
     }
@@ -69,7 +69,7 @@ struct WhittedLight {
         const SeenInPlace seen =
             seen_in_place(world, vertex.surface, path.ray, path.interior, branch.numbers, path.tracer);
         if (seen.is_hole) {
-            found.alpha -= average(path.throughput);
+            found.alpha += alpha_over_background(path.throughput) - 1.0f;
             return;
         }
         path.throughput *= seen.passed;

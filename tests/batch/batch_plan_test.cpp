@@ -94,7 +94,7 @@ TEST_F(BatchPlanTest, SaysWhatCanBeGoneOnWith) {
     EXPECT_EQ(reason(), "was interrupted at 12 of 48 spp, begins anew as its settings changed: seed: 0 -> 7");
     EXPECT_FALSE(unit_.resumes);
     EXPECT_EQ(unit_.done, 0.0);
-    age(folder_ / "box.json", -10);
+    age(folder_ / "box.json", 10);
     EXPECT_EQ(reason(), "was interrupted at 12 of 48 spp, goes on from a checkpoint") << "of a later render";
     EXPECT_TRUE(unit_.resumes);
     fs::remove(folder_ / "box.exr");

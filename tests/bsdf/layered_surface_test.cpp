@@ -57,6 +57,35 @@ TEST(LayeredSurface, ABlackBaseLosesNothingOfItsCoat) {
     }
 }
 
+// Beneath the layers nothing is absorbed: what they keep of what leaves stays inside.
+TEST(LayeredSurface, InsideABodyLightIsNeitherMadeNorLost) {
+    for (const float diffuse_transmission : {0.0f, 0.6f}) {
+        DielectricBody body{.interface = SmoothDielectric{1.5f}, .interface_share = 0.0f};
+        body.opaque = {.base = Rgb(1.0f),
+                       .metallic = 0.0f,
+                       .alpha_x = 1.0f,
+                       .alpha_y = 1.0f,
+                       .f0 = Rgb(0.0f),
+                       .f90 = 0.0f,
+                       .diffuse_transmission = diffuse_transmission,
+                       .diffuse_transmission_color = Rgb(1.0f)};
+        for (const LayeredSurface& surface : {LayeredSurface::make(body, Sheen{Rgb(1.0f), 1.0f}, {}),
+                                              LayeredSurface::make(body, {}, ClearCoat{1.0f, 0.3f})})
+            for (const float cos_o : {-0.9f, -0.3f}) {
+                const Vec3f wo = direction_at(cos_o);
+                Random random(5);
+                double sum = 0.0;
+                constexpr int kSamples = 40'000;
+                for (int i = 0; i < kSamples; ++i) {
+                    const float u_lobe = random.next();
+                    const BsdfSample sample = surface.sample(wo, u_lobe, random.next_2d(), TransportMode::Importance);
+                    sum += static_cast<double>(sample.weight.g);
+                }
+                EXPECT_NEAR(sum / kSamples, 1.0, 0.01) << "cos " << cos_o << ", " << diffuse_transmission;
+            }
+    }
+}
+
 TEST(Sheen, IsFiniteWhereRoundingTakesTheCosineAboveOne) {
     const float above_one = 1.0f + 3e-7f;
     const BsdfValue value = Sheen{Rgb(1.0f), 0.3f}.evaluate({0.0f, 0.0f, above_one}, {0.1f, 0.0f, 0.99f});

@@ -124,9 +124,10 @@ std::vector<ClosedFormCase> matte_boundary_cases() {
 
 // From a floor in two bodies at once, of which the one with priority goes on beyond the boundary of the other. Light
 // samples pass that only if it is clear; what a path meets behind another counts in full. All around is as bright.
-ClosedFormCase hidden_boundary_case(const std::string& name, float ior) {
+ClosedFormCase hidden_boundary_case(const std::string& name, float ior, float tint = 1.0f) {
     MaterialDesc hidden = tinted_air(0, 1.0f);
     hidden.ior = ior;
+    hidden.base_color = Rgb(tint);
     SceneDesc scene = empty_in_environment();
     scene.environment.enabled = false;
     add(scene, sphere({0.0f, 0.0f, 0.0f}, 5.0f, 2, Facing::Inwards), emitter(1.0f));
@@ -297,6 +298,7 @@ std::vector<ClosedFormCase> body_cases() {
     for (ClosedFormCase& c : matte_boundary_cases()) cases.push_back(std::move(c));
     cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_boundary", 1.5f));
     cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_clear_boundary", 1.0f));
+    cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_tinted_boundary", 1.0f, 0.25f));
     for (ClosedFormCase& c : clear_body_cases()) cases.push_back(std::move(c));
     for (ClosedFormCase& c : divided_camera_cases()) cases.push_back(std::move(c));
     return cases;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <variant>
 #include <vector>
@@ -295,6 +296,54 @@ TEST(ShadowCatcher, ShowsNothingOfItselfThroughPanes) {
         EXPECT_LT(least, 0.3) << integrator << ": what the pane reflects, and the light that it takes from the ground";
         EXPECT_EQ(*std::ranges::max_element(pixels.alphas), 1.0) << integrator << ": the ball";
     }
+}
+
+/// A slab of air that takes half of what passes it straight, between a camera that looks straight down and `ground`,
+/// under a sun that shines straight down.
+SceneDesc ground_below_tinted_air(const MaterialDesc& ground) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc air = clear_pane();
+    air.ior = 1.0f;
+    air.volume = {.closed = true, .attenuation_color = Rgb(0.5f), .attenuation_distance = 1.0f};
+    const Mat4f slab = scaling({8.0f, 0.5f, 8.0f}) * translation({0.0f, 1.0f, 0.0f});
+    add_object(scene, cube(), add_material(scene, air), slab);
+    add_object(scene, quad_facing_up({0.0f, 0.0f, 0.0f}, 5.0f), add_material(scene, ground));
+    LightDesc sun;
+    sun.type = LightType::Directional;
+    sun.intensity = 2.0f;
+    sun.to_world = Mat4f(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
+    scene.lights.push_back(sun);
+    scene.cameras.at(0).to_world = Mat4f(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 4, 0, 1);
+    scene.cameras.at(0).yfov = 0.05f;
+    return scene;
+}
+
+double mean_alpha(const Pixels& pixels) {
+    return std::accumulate(pixels.alphas.begin(), pixels.alphas.end(), 0.0) / double(pixels.alphas.size());
+}
+
+// A quarter of the light on the ground behind comes to the eye: half of the sun's, of which half passes once more.
+// Roulette makes single samples others: five deviations.
+TEST(ShadowCatcher, IsInTheShadowOfAirAndBehindIt) {
+    MaterialDesc hole = diffuse(Rgb(kGroundAlbedo));
+    hole.seen_as = SeenAs::Hole;
+    for (const char* const integrator : {"path", "bdpt", "vcm", "whitted"}) {
+        EXPECT_NEAR(mean_alpha(render_alone(ground_below_tinted_air(catcher()), integrator, 16)), 0.75, 5e-3)
+            << integrator;
+        EXPECT_NEAR(mean_alpha(render_alone(ground_below_tinted_air(hole), integrator, 16)), 0.5, 5e-3) << integrator;
+    }
+}
+
+// Without a ground, air and panes take of the plate what they take of light.
+TEST(Alpha, IsWhatClearSurfacesTakeOfTheBackground) {
+    SceneDesc scene = ground_below_tinted_air(diffuse(Rgb(kGroundAlbedo)));
+    scene.instances.pop_back();
+    MaterialDesc pane = clear_pane();
+    pane.base_color = Rgb(0.25f);
+    pane.specular = 0.0f;
+    add_object(scene, quad_facing_up({0.0f, 0.1f, 0.0f}, 5.0f), add_material(scene, pane));
+    for (const char* const integrator : {"path", "bdpt", "vcm", "whitted"})
+        EXPECT_NEAR(mean_alpha(render_alone(scene, integrator, 64)), 1.0 - 0.5 * 0.25, 5e-3) << integrator;
 }
 
 // Glass and a mirror stand on the catcher, of which they see the surface.

@@ -29,7 +29,7 @@ void MetLight::on_replaced_surface(SubpathState& state, const Ray& ray, const In
                                            {job.job.sequence, job.samples[state.slot].key}, &tracer);
     for (std::uint32_t i = 0; i < seen.rays; ++i) parts_.found.count_ray(state.slot);
     if (job.job.profile != nullptr) job.job.profile->use().light_samples += seen.rays;
-    if (seen.is_hole) parts_.alpha[state.slot] = 1.0f - average(state.throughput);
+    if (seen.is_hole) parts_.alpha[state.slot] = alpha_over_background(state.throughput);
     state.throughput *= seen.passed;
 }
 
@@ -76,7 +76,7 @@ void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
     const std::span<const std::uint32_t> met = world.environment().met(is_direct);
     // A subpath without light has met a holdout, which has given the sample its alpha.
     if (is_direct && met.empty() && !is_black(state.throughput))
-        parts_.alpha[state.slot] = 1.0f - average(state.throughput);
+        parts_.alpha[state.slot] = alpha_over_background(state.throughput);
     if (!parts_.job.lengths.is_long_enough(state.edges)) return;
     for (const std::uint32_t light : met) {
         const Rgb radiance = world.environment().radiance(light, direction);

@@ -6,6 +6,7 @@
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
 #include "transport/direct_light.h"
+#include "transport/shadow_catcher.h"
 #include "wave/camera_wave.h"
 
 #include <algorithm>
@@ -184,7 +185,7 @@ void PathLight::add_environment(const PathContext& context) {
         if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
             // A path without light has met a holdout, which has given it its alpha.
             const Rgb throughput = paths_.throughput[block_.first + k];
-            if (!is_black(throughput)) alpha_[paths_.slot[block_.first + k]] = 1.0f - average(throughput);
+            if (!is_black(throughput)) alpha_[paths_.slot[block_.first + k]] = alpha_over_background(throughput);
             continue;
         }
         if (!world.traits().has_environment || !context.settings.lengths.is_long_enough(paths_.edges(block_.first + k)))

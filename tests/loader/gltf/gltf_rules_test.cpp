@@ -131,7 +131,7 @@ const Breach kBreaches[] = {
          b.json["animations"] = {
              {{"name", "Take 001"}, {"channels", nlohmann::json::array()}, {"samplers", nlohmann::json::array()}}};
      }},
-    {"NoJoints", Severity::Error, "at least 1", "/skins/0/joints",
+    {"NoJoints", Severity::Warning, "empty arrays", "/skins/0/joints",
      [](GltfBuilder& b) {
          b.json["skins"] = {{{"joints", nlohmann::json::array()}}};
      }},
