@@ -13,7 +13,7 @@ NO_BROWSER = 2
 
 def main():
     sample_batch = sys.argv[1]
-    for units in (("0",), ("70", "running")):
+    for units in (("0",), ("200", "running")):
         with tempfile.TemporaryDirectory() as directory:
             subprocess.run([sample_batch, directory, *units], check=True)
             status = subprocess.run([sys.executable, "-B", CHECK, directory], check=False).returncode
