@@ -148,30 +148,36 @@ function place(event) {
   return [event.clientX - box.left, event.clientY - box.top];
 }
 
+/** Moves a zoomed image by pixels of the page. */
+function pan(dx, dy) {
+  stage.x -= dx / stage.zoom;
+  stage.y -= dy / stage.zoom;
+  draw();
+}
+
 let drag = null;
 canvas.addEventListener("pointerdown", (event) => {
+  // The middle and the right button have a meaning only where there is a camera: they pan.
+  if (event.button > (camera.pose ? 2 : 0)) return;
   canvas.setPointerCapture(event.pointerId);
-  drag = { at: place(event), pans: event.button !== 0 || event.shiftKey };
+  drag = { at: place(event), pans: event.button !== 0 || event.shiftKey, moves: false };
 });
 canvas.addEventListener("pointermove", (event) => {
   pointer.at = place(event);
   if (!drag) { showPixel(); return; }
   const [dx, dy] = [pointer.at[0] - drag.at[0], pointer.at[1] - drag.at[1]];
+  if (dx === 0 && dy === 0) return;  // a click moves nothing
   drag.at = pointer.at;
-  if (camera.pose) {
-    moveCamera(drag.pans ? "pan" : "orbit", dx, dy);
-  } else if (stage.zoom !== null) {
-    stage.x -= dx / stage.zoom;
-    stage.y -= dy / stage.zoom;
-    draw();
-  }
+  if (camera.pose) moveCamera(drag.pans ? "pan" : "orbit", dx, dy);
+  else if (stage.zoom !== null) pan(dx, dy);
 });
 for (const end of ["pointerup", "pointercancel"])
-  canvas.addEventListener(end, () => { if (drag && camera.pose) restCamera(); drag = null; });
+  canvas.addEventListener(end, () => { if (drag?.moves) restCamera(); drag = null; });
 canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 canvas.addEventListener("pointerleave", () => { pointer.at = null; byId("pixel").textContent = "\u00a0"; });
 canvas.addEventListener("wheel", (event) => {
   event.preventDefault();
+  if (event.deltaY === 0) return;  // sideways
   const steps = -event.deltaY / (event.deltaMode === 0 ? 100 : 3);
   if (camera.pose) moveCamera("dolly", 0, steps);
   else zoomTo(placed().zoom * 1.25 ** steps, place(event));
@@ -367,7 +373,8 @@ function moveCamera(way, dx, dy) {
   camera.pose = { eye, target, up };
   sendCamera(true);
   clearTimeout(camera.timer);
-  if (!drag) camera.timer = setTimeout(restCamera, 200);
+  if (drag) drag.moves = true;
+  else camera.timer = setTimeout(restCamera, 200);
 }
 
 const restCamera = () => sendCamera(false);
