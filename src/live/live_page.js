@@ -210,11 +210,15 @@ document.addEventListener("keydown", (event) => {
   const zoom = { "+": () => zoomTo(placed().zoom * 1.5), "=": () => zoomTo(placed().zoom * 1.5),
     "-": () => zoomTo(placed().zoom / 1.5), 0: () => zoomTo(null), 1: () => byId("zoom-one").click() }[event.key];
   if (zoom) { zoom(); return; }
-  const move = { ArrowLeft: [-12, 0], ArrowRight: [12, 0], ArrowUp: [0, -12], ArrowDown: [0, 12] }[event.key];
-  if (!camera.pose) return;
-  if (move) {
+  const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+  if (arrow && !camera.pose && stage.zoom !== null) {
     event.preventDefault();
-    moveCamera(event.shiftKey ? "pan" : "orbit", ...move);
+    pan(...times(arrow, -40));
+  }
+  if (!camera.pose) return;
+  if (arrow) {
+    event.preventDefault();
+    moveCamera(event.shiftKey ? "pan" : "orbit", ...times(arrow, 12));
   } else if (event.key === "w" || event.key === "s") {
     moveCamera("dolly", 0, event.key === "w" ? 1 : -1);
   } else if (event.key === "r") {
@@ -274,6 +278,8 @@ function showRender(status) {
   const left = status.phase === "render" && status.fraction > 0
     ? status.seconds * (1 - status.fraction) / status.fraction : null;
   byId("bar").value = ENDS.includes(status.phase) && status.phase === "finished" ? 1 : status.fraction;
+  byId("keys").textContent = "The wheel zooms, dragging moves the zoomed image. Keys: +, −, 1 and 0 for the zoom; " +
+    "arrows to move what is zoomed.";
   byId("figures").replaceChildren(
     figure("samples per pixel", spp, facts ? `${facts.width} × ${facts.height} pixels` : null),
     figure("relative error", status.error === null ? UNKNOWN : format(status.error),
