@@ -418,19 +418,25 @@ function makeSide(index, side, integrators) {
   const fault = element("p", { class: "alarm", role: "alert" });
   const figures = element("p", { class: "muted" });
   const isOn = index === 1 ? element("input", { type: "checkbox", id: "compare" }) : null;
+  let accepted = { integrator: side.integrator, depth: String(side.depth), more: side.more };
   const body = element("div", {}, element("div", { class: "controls" },
     element("label", {}, "Integrator ", choice), element("label", {}, "Longest paths ", depth),
     element("label", { class: "wide" }, "Other options ", more)), fault, figures);
   const send = async () => {
     fault.textContent = "";
-    if (isOn) body.hidden = !isOn.checked;
+    const shown = isOn ? isOn.checked : true;
+    body.hidden = !shown;
+    // What was refused must not keep the image from being taken away.
+    const wanted = shown ? { integrator: choice.value, depth: depth.value, more: more.value } : accepted;
     try {
-      await post("side", { index, shown: isOn ? isOn.checked : true, integrator: choice.value, depth: depth.value, more: more.value });
+      await post("side", { index, shown, ...wanted });
+      accepted = wanted;
     } catch (error) { fault.textContent = error.message; }
   };
   for (const input of [choice, depth, more, ...(isOn ? [isOn] : [])]) input.addEventListener("change", send);
   choice.value = side.integrator;
   depth.value = side.depth;
+  more.value = side.more;
   body.hidden = isOn !== null && !side.shown;
   if (isOn) isOn.checked = side.shown;
   const legend = isOn ? element("legend", {}, element("label", {}, isOn, " Compare with, at equal time"))
