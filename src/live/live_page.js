@@ -243,12 +243,14 @@ function offerViews(facts) {
   const label = byId("layer-label");
   label.hidden = facts.layers.length === 0;
   options(byId("layer"), [["", "image"], ...facts.layers.map((name) => [name])], "");
+  if (!stage.isExposureChosen) {  // the program chooses it anew for each image
+    byId("exposure").value = facts.exposure;
+    showExposure();
+  }
   if (!displays || byId("display").options.length > 0) return;
   options(byId("display"), displays.map(({ name }) => [name]), facts.display);
   byId("display").value = facts.display;
   offerViewsOfDisplay(facts.view);
-  byId("exposure").value = facts.exposure;
-  showExposure();
 }
 
 function offerViewsOfDisplay(chosen) {
