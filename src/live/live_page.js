@@ -1,6 +1,6 @@
 // ---- What the program says ----
 
-const state = { status: null, ended: false, failures: 0 };
+const state = { status: null, ending: false, ended: false, failures: 0 };
 const POLL = 400;  // milliseconds between two questions
 
 async function ask(path, options = {}) {
@@ -100,7 +100,14 @@ async function load(side) {
   showPixel();
 }
 
-const loadAll = () => Promise.all([load(0), load(1)]);
+/** Loads what is new. That a picture is not there yet says nothing, and that nobody answers is said elsewhere. */
+async function loadAll() {
+  try {
+    await Promise.all([load(0), load(1)]);
+  } catch (error) {
+    if (error.status !== 404 && !(error instanceof TypeError)) tell(error.message);
+  }
+}
 
 // ---- Zoom and the numbers of a pixel ----
 
@@ -304,9 +311,16 @@ function showState(status) {
   document.title = `${share ? `${share} ` : ""}${status.title}: Etendue`;
 }
 
+/** Lets what the program has to answer be asked for, or not. */
+function allowLooks(isAllowed) {
+  for (const id of ["layer", "display", "view", "exposure"]) byId(id).disabled = !isAllowed;
+  for (const side of byId("sides").children) side.disabled = !isAllowed;
+}
+
 function show(status) {
   state.status = status;
   for (const id of ["stop", "preview"]) byId(id).disabled = ENDS.includes(status.phase);
+  allowLooks(true);
   showState(status);
   if (status.kind === "render") {
     byId("preview").hidden = !status.output;
@@ -319,12 +333,14 @@ function show(status) {
   if (status.images[0]) offerViews(status.images[0]);
 }
 
-/** Says that the program does not answer: it has ended, if it had come to an end before. */
+/** Says that the program does not answer: it has ended, if it had come to an end before or was asked to. */
 function showNoAnswer() {
   const phase = state.status?.phase;
-  state.ended = ENDS.includes(phase);
+  const isFinished = ENDS.includes(phase);
+  state.ended = isFinished || state.ending;
   for (const id of ["stop", "preview"]) byId(id).disabled = true;
-  byId("state").textContent = state.ended ? `${PHASES[phase]}; the program has ended`
+  allowLooks(false);
+  byId("state").textContent = isFinished ? `${PHASES[phase]}; the program has ended` : state.ended ? "ended"
     : "no answer: the program has ended, or cannot be reached";
   byId("state").classList.toggle("alarm", !state.ended);
 }
@@ -332,7 +348,8 @@ function showNoAnswer() {
 byId("stop").addEventListener("click", async () => {
   try {
     await post("stop");
-    tell(state.status?.kind !== "explore" ? "Stopping: what there is is being written." : "Stopping.");
+    state.ending = state.status?.kind === "explore";  // which tells of no phase at its end
+    tell(state.ending ? "" : "Stopping: what there is is being written.");
   } catch (error) { tell(error.message); }
 });
 byId("preview").addEventListener("click", async () => {
@@ -535,14 +552,13 @@ async function follow() {
       const newest = state.status?.kind === "explore" ? `?after=${state.status.serial}` : "";
       show(await (await ask(`status${newest}`)).json());
       state.failures = 0;
-      // Pictures may not be there yet, or be too large for the browser: that says nothing of the program.
-      await loadAll().catch((error) => { if (error.status !== 404) tell(error.message); });
+      await loadAll();
       if (state.status.kind !== "explore") await pause(POLL);
     } catch (error) {
       if (error.status === 404) continue;
       // A tunnel may be down for a while: it is asked again, less and less often.
       state.failures += 1;
-      if (state.failures > 2) showNoAnswer();
+      if (state.failures > 2 || state.ending) showNoAnswer();
       await pause(Math.min(200 * state.failures, 5000));
     }
   }
