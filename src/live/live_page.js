@@ -522,9 +522,10 @@ function showBatch(status) {
   if (!report) return;
   const totals = report.totals;
   const done = totals.rendered + totals.up_to_date + totals.failed + totals.interrupted;
-  byId("bar").value = totals.units > 0 ? done / totals.units : 0;
+  const chosen = totals.units - totals.not_chosen;
+  byId("bar").value = chosen > 0 ? done / chosen : 0;
   byId("figures").replaceChildren(
-    figure("images", `${format(done)} of ${format(totals.units)}`, `${format(totals.up_to_date)} were up to date`),
+    figure("images", `${format(done)} of ${format(chosen)}`, `${format(totals.up_to_date)} were up to date`),
     figure("failed", format(totals.failed)),
     figure("time", formatSeconds(report.seconds), known(report.seconds_left) ? `about ${formatSeconds(report.seconds_left)} left` : null),
     figure("rays", formatCount(totals.rays)),
