@@ -108,6 +108,7 @@ Explorer::Explorer(PreparedScene prepared, const std::vector<GivenOption>& given
     constexpr float kUpright = 1e-3f;
     if (std::abs(pose.right.y) > kUpright || std::hypot(pose.forward.x, pose.forward.z) < kUpright)
         own_camera_.up = Vec3d(pose.up);
+    own_camera_ = scene_.settings.camera_place.value_or(own_camera_);
 
     // One for both images, which stays while the camera moves.
     if (!scene_.settings.color.exposure) {
@@ -159,6 +160,8 @@ void Explorer::move_camera(const std::string& place, bool moves) {
     rounded.give("--camera-place", text_of_place(*settings.camera_place));
     rounded.apply(settings);
     const std::scoped_lock lock(mutex_);
+    // At once, so that a page that has moved it is never told of an older place.
+    scene_.settings.camera_place = settings.camera_place;
     wishes_.camera = settings.camera_place;
     moved_at_ = moves ? Clock::now() : Clock::time_point{};
     has_wishes_ = true;
@@ -188,9 +191,9 @@ void Explorer::fulfil(Wishes wishes) {
         SceneDesc view;
         {
             const std::scoped_lock lock(mutex_);
-            scene_.settings.camera_place = wishes.camera;
             view.settings = scene_.settings;
         }
+        view.settings.camera_place = wishes.camera;  // another may have been asked for since
         view.cameras = scene_.cameras;
         view.origin = scene_.origin;
         view.file = scene_.file;

@@ -71,8 +71,10 @@ class Explorer {
     /// Returns an image.
     [[nodiscard]] const LiveImage& image(std::size_t side) const { return sides_.at(side).image; }
     [[nodiscard]] std::array<ExplorerSide, 2> sides() const;
-    /// Returns where the camera stands: eye, target and up.
+    /// Returns where the camera stands, or is about to: eye, target and up.
     [[nodiscard]] CameraPlace camera() const;
+    /// Returns where the camera stood at first.
+    [[nodiscard]] const CameraPlace& own_camera() const { return own_camera_; }
     /// Returns a number that grows with every image and every change.
     [[nodiscard]] std::uint64_t serial() const;
     /// Waits until that number is more than `serial`, or a time has passed. Tells that somebody looks.
@@ -142,7 +144,7 @@ class Explorer {
     std::atomic<Clock::time_point> moved_at_{};  ///< while a drag goes on: when the camera last moved
     std::atomic<Clock::time_point> looked_at_{};
     std::uint64_t serial_ = 1;
-    CameraPlace own_camera_{};  ///< where the scene's own camera stands
+    CameraPlace own_camera_{};  ///< where the camera stands at first; does not change
 };
 
 }  // namespace etendue

@@ -29,6 +29,13 @@ std::uint64_t whole_number(const LiveRequest& request, std::string_view name) {
     return found == request.query.end() ? 0 : whole_number(found->second);
 }
 
+/// Lists the nine numbers of a place: eye, target and up.
+std::vector<double> numbers_of(const CameraPlace& place) {
+    std::vector<double> numbers;
+    for (const Vec3d& v : {place.eye, place.target, place.up}) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+    return numbers;
+}
+
 }  // namespace
 
 ExplorerPage::ExplorerPage(int port, Explorer& explorer)
@@ -38,7 +45,6 @@ ExplorerPage::ExplorerPage(int port, Explorer& explorer)
 
 std::string ExplorerPage::status() const {
     const std::uint64_t serial = explorer_.serial();
-    const CameraPlace camera = explorer_.camera();
     nlohmann::json sides = nlohmann::json::array();
     nlohmann::json images = nlohmann::json::array();
     const std::array<ExplorerSide, 2> all = explorer_.sides();
@@ -55,12 +61,15 @@ std::string ExplorerPage::status() const {
         if (!facts.is_null()) std::tie(facts["full_width"], facts["full_height"]) = explorer_.size();
         images.push_back(std::move(facts));
     }
-    std::vector<double> place;
-    for (const Vec3d& v : {camera.eye, camera.target, camera.up}) place.insert(place.end(), {v.x, v.y, v.z});
-    const nlohmann::json json{{"kind", "explore"},          {"title", explorer_.name()},
-                              {"phase", "render"},          {"serial", serial},
-                              {"camera", std::move(place)}, {"integrators", integrator_names()},
-                              {"sides", std::move(sides)},  {"images", std::move(images)}};
+    const nlohmann::json json{{"kind", "explore"},
+                              {"title", explorer_.name()},
+                              {"phase", "render"},
+                              {"serial", serial},
+                              {"camera", numbers_of(explorer_.camera())},
+                              {"own_camera", numbers_of(explorer_.own_camera())},
+                              {"integrators", integrator_names()},
+                              {"sides", std::move(sides)},
+                              {"images", std::move(images)}};
     return text_of(json);
 }
 

@@ -361,7 +361,7 @@ byId("preview").addEventListener("click", async () => {
 
 // ---- A camera to move, and integrators to choose ----
 
-const camera = { pose: null, first: null, sent: false, again: null, timer: null };
+const camera = { pose: null, first: null, sent: false, again: null, timer: null, changes: 0 };
 const add = (a, b, factor = 1) => a.map((value, i) => value + factor * b[i]);
 const minus = (a, b) => add(a, b, -1);
 const times = (a, factor) => a.map((value) => value * factor);
@@ -412,6 +412,7 @@ function resetCamera() {
 /** Sends the newest pose only: what the program cannot keep up with is left out. */
 async function sendCamera(moves) {
   camera.again = { place: [...camera.pose.eye, ...camera.pose.target, ...camera.pose.up], moves };
+  camera.changes += 1;
   if (camera.sent) return;
   camera.sent = true;
   try {
@@ -424,7 +425,16 @@ async function sendCamera(moves) {
     tell(error.message);
   } finally {
     camera.sent = false;
+    camera.changes += 1;
   }
+}
+
+const poseOf = (place) => ({ eye: place.slice(0, 3), target: place.slice(3, 6), up: place.slice(6, 9) });
+
+/** Takes over where the camera stands, which another page may have moved, unless it has been moved here since `asked`. */
+function followCamera(status, asked) {
+  camera.first ??= poseOf(status.own_camera);
+  if (!drag && !camera.sent && camera.changes === asked) camera.pose = poseOf(status.camera);
 }
 
 const sides = [null, null];
@@ -473,11 +483,6 @@ function showExplorer(status) {
   byId("keys").textContent = "Drag to orbit, Shift-drag or the right button to pan, wheel to come nearer. " +
     "Keys: arrows, Shift and arrows, w and s; r for the scene's own camera; +, −, 1 and 0 for the zoom.";
   status.sides.forEach((side, index) => { if (!sides[index]) makeSide(index, side, status.integrators); });
-  if (!camera.pose && status.camera) {
-    const [eye, target, up] = [0, 3, 6].map((first) => status.camera.slice(first, first + 3));
-    camera.pose = { eye, target, up };
-    camera.first = structuredClone(camera.pose);
-  }
   status.sides.forEach((side, index) => {
     const facts = status.images[index];
     sides[index].figures.textContent = facts
@@ -545,13 +550,22 @@ function showBatch(status) {
 
 // ---- All together ----
 
+/** Asks how the program is. Of a camera that moves it answers when there is another image; of a batch, in full when
+ * something has changed. */
+async function askStatus() {
+  const newest = state.status?.serial ?? state.status?.version;
+  const asked = camera.changes;
+  const status = await (await ask(newest === undefined ? "status" : `status?after=${newest}`)).json();
+  if (status.camera) followCamera(status, asked);
+  if (!status.is_same) show(status);
+  else if (state.failures > 0) show(state.status);
+}
+
 async function follow() {
   try { displays = await (await ask("displays")).json(); } catch { displays = []; }
   while (!state.ended) {
     try {
-      // Of a camera that moves, the program answers when there is another image.
-      const newest = state.status?.kind === "explore" ? `?after=${state.status.serial}` : "";
-      show(await (await ask(`status${newest}`)).json());
+      await askStatus();
       state.failures = 0;
       await loadAll();
       if (state.status.kind !== "explore") await pause(POLL);

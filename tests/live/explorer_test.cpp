@@ -175,6 +175,18 @@ TEST(Explorer, MovesACameraFinelyFarFromTheOrigin) {
         << work.explorer().sides()[0].command;
 }
 
+TEST(Explorer, KnowsWhereItsCameraIsAndWhereItWasAtFirst) {
+    AtWork work;
+    Explorer& explorer = work.explorer();
+    const CameraPlace first = explorer.camera();
+    EXPECT_EQ(explorer.own_camera().eye.z, first.eye.z);
+    explorer.move_camera("0.5,0.25,7,0,0,0", true);
+    EXPECT_NEAR(explorer.camera().eye.z, 7.0, 1e-4) << "what is asked for is told at once";
+    ASSERT_TRUE(work.wait_for(0, 1));
+    EXPECT_NEAR(explorer.camera().eye.z, 7.0, 1e-4);
+    EXPECT_EQ(explorer.own_camera().eye.z, first.eye.z);
+}
+
 TEST(Explorer, RefusesWhatItCannotChange) {
     AtWork work;
     Explorer& explorer = work.explorer();
