@@ -77,10 +77,6 @@ void LiveImage::set(OutputFrame frame) {
     held_ = {held_.version + 1, std::move(next)};
 }
 
-std::uint64_t LiveImage::version() const {
-    return held().version;
-}
-
 LiveImage::Held LiveImage::held() const {
     const std::scoped_lock lock(mutex_);
     return held_;

@@ -35,8 +35,6 @@ class LiveImage {
 
     /// Takes an image in place of the one before.
     void set(OutputFrame frame);
-    /// Returns how many images there have been.
-    [[nodiscard]] std::uint64_t version() const;
 
     /// Answers with an 8-bit PNG. The query may name a `layer`, and a `display`, `view` and `exposure` in place of the
     /// image's own; layers that are no colours are shown as `view` shows them.

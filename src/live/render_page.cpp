@@ -10,14 +10,6 @@
 
 namespace etendue {
 
-namespace {
-
-bool is_end(std::string_view phase) {
-    return phase == "finished" || phase == "stopped";
-}
-
-}  // namespace
-
 void announce_page(const std::string& url) {
     log_info("live: {}", url);
 }
@@ -28,8 +20,7 @@ RenderPage::RenderPage(int port) : server_(port, [this](const LiveRequest& reque
 
 RenderPage::~RenderPage() {
     const auto until = Clock::now() + kFarewell;
-    while (is_watched() && !(is_end_told_ && drawn_ == image_.version()) && Clock::now() < until)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    while (is_watched() && Clock::now() < until) std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 void RenderPage::begin(const std::string& title, const std::filesystem::path& output) {
@@ -95,16 +86,10 @@ LiveAnswer RenderPage::answer(const LiveRequest& request) {
     if (request.path == "status") {
         looked_at_ = Clock::now();
         const std::scoped_lock lock(mutex_);
-        is_end_told_ = is_end(phase_);
         return LiveAnswer::json(status());
     }
     if (request.path == "displays") return LiveAnswer::json(text_of(displays_of(colors_)));
-    if (request.path == "image.png") {
-        const std::uint64_t newest = image_.version();
-        LiveAnswer answer = image_.png(request);
-        drawn_ = newest;
-        return answer;
-    }
+    if (request.path == "image.png") return image_.png(request);
     if (request.path == "pixel") return image_.pixel(request);
     return page_file(request.path);
 }

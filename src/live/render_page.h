@@ -8,7 +8,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -22,7 +21,7 @@ class RenderPage final : public RenderWatcher {
   public:
     /// Listens on `port`, or on a free one if that is 0, and says where on stderr. Throws IoError if it cannot.
     explicit RenderPage(int port);
-    /// Waits for a second at most, so that whoever looks sees the end.
+    /// Waits for a second if a page is open: it, and any other, asks again in that time and sees the end.
     ~RenderPage() override;
 
     void begin(const std::string& title, const std::filesystem::path& output) override;
@@ -45,8 +44,6 @@ class RenderPage final : public RenderWatcher {
     ColorConfig colors_ = ColorConfig::from_environment();
     LiveImage image_{colors_};
     std::atomic<Clock::time_point> looked_at_{};  ///< when a page last asked for the state
-    std::atomic<bool> is_end_told_{false};        ///< a page knows of the end
-    std::atomic<std::uint64_t> drawn_{0};         ///< version of the image that a page has got last
     mutable std::mutex mutex_;
     std::string title_;
     std::filesystem::path output_;
