@@ -7,6 +7,7 @@
 #include "loader/files.h"
 #include "session/interrupt.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <thread>
@@ -27,8 +28,7 @@ BatchLivePage::BatchLivePage(int port) : server_(port, [this](const LiveRequest&
 
 BatchLivePage::~BatchLivePage() {
     const auto until = Clock::now() + kFarewell;
-    while (is_watched() && !is_end_told_ && Clock::now() < until)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    while (is_watched() && Clock::now() < until) std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 bool BatchLivePage::is_watched() const {
@@ -36,29 +36,45 @@ bool BatchLivePage::is_watched() const {
 }
 
 bool BatchLivePage::wants_report() const {
-    return is_watched() && Clock::now() - shown_at_.load() > kBetweenReports;
+    // A tenth of the time at most, however many units there are.
+    const Clock::duration between = std::max<Clock::duration>(kBetweenReports, 10 * took_.load());
+    return is_watched() && Clock::now() - shown_at_.load() > between;
 }
 
 void BatchLivePage::show(const BatchReport& report) {
-    shown_at_ = Clock::now();
+    const Clock::time_point start = Clock::now();
+    shown_at_ = start;
     const bool is_ended = report.state == BatchState::Ended;
     const char* const running = report.state == BatchState::Planning ? "plan" : "render";
-    nlohmann::json json{{"kind", "batch"},
-                        {"title", report.title},
-                        {"phase", is_ended ? (report.interrupted ? "stopped" : "finished") : running},
-                        {"images", nlohmann::json::array()}};
-    json["report"] = nlohmann::json::parse(to_json(report));
+    const std::uint64_t version = version_ + 1;
+    const nlohmann::json json{{"kind", "batch"},
+                              {"title", report.title},
+                              {"phase", is_ended ? (report.interrupted ? "stopped" : "finished") : running},
+                              {"version", version},
+                              {"images", nlohmann::json::array()}};
+    // Put in as it is: of ten thousand units it is megabytes, which need not be read and written once more.
+    std::string text = text_of(json);
+    text.back() = ',';
+    text += R"("report":)" + to_json(report) + "}";
     std::vector<std::filesystem::path> pictures;
     pictures.reserve(report.units.size());
     for (const BatchUnit& unit : report.units)
         pictures.push_back(has_image(unit.outcome) && !unit.preview.empty()
                                ? std::filesystem::path(report.output_directory) / unit.preview
                                : std::filesystem::path());
-    std::string status = text_of(json);
+    took_ = Clock::now() - start;
     const std::scoped_lock lock(mutex_);
-    status_ = std::move(status);
-    is_ended_ = is_ended;
+    version_ = version;
+    status_ = std::move(text);
     pictures_ = std::move(pictures);
+}
+
+LiveAnswer BatchLivePage::status(const LiveRequest& request) const {
+    const auto after = request.query.find("after");
+    const std::scoped_lock lock(mutex_);
+    if (after != request.query.end() && after->second == std::to_string(version_.load()))
+        return LiveAnswer::json(R"({"is_same":true})");
+    return LiveAnswer::json(status_);
 }
 
 LiveAnswer BatchLivePage::picture(std::size_t unit) const {
@@ -84,9 +100,7 @@ LiveAnswer BatchLivePage::answer(const LiveRequest& request) {
     }
     if (request.path == "status") {
         looked_at_ = Clock::now();
-        const std::scoped_lock lock(mutex_);
-        is_end_told_ = is_ended_;
-        return LiveAnswer::json(status_);
+        return status(request);
     }
     if (request.path == "displays") return LiveAnswer::json("[]");
     if (request.path == "picture.png") {
