@@ -13,6 +13,7 @@
 #include "core/standard_output.h"
 #include "core/write_file.h"
 #include "live/render_page.h"
+#include "output/auto_exposure.h"
 #include "output/software_name.h"
 #include "picture/render_setup.h"
 #include "session/interrupt.h"
@@ -201,6 +202,10 @@ Findings measure_renders(const CompareArguments& arguments, ComparisonPlan& plan
         found.reference ? found.reference->report() : ReferenceReport{.kind = "none", .text = "There is none."};
     if (report.reference.kind == "pooled")
         report.reference.seeds = {request.first_seed, static_cast<std::uint32_t>(rounds * variants.size())};
+    if (!variants.front().settings.color.exposure) {
+        const ImageF& image = found.reference ? found.reference->of_round(0) : found.images.front().of_seeds.front();
+        report.exposure = static_cast<double>(choose_exposure(image).stops);
+    }
     if (found.reference) found.maps = map_errors(found.images, *found.reference, report.working_space, context);
     std::vector<NamedRegion> regions = arguments.regions;
     regions.insert(regions.end(), of_classes.begin(), of_classes.end());
