@@ -29,17 +29,6 @@ struct LensView {
 /// however large, would show it.
 [[nodiscard]] std::optional<LensView> view_from_lens(const World& world, const Vec3f& position, Vec2f lens, float time);
 
-/// Returns what a light subpath brings to the film from where it begins, at a lamp in view, times `weigh(view, cosine)`
-/// with the cosine at the lamp.
-[[nodiscard]] std::optional<FilmLight> lamp_to_camera(
-    const SubpathSample& sample, const Emission& emission,
-    const std::function<float(const LensView& view, float cosine)>& weigh);
-
-/// Returns what `vertex` of a light subpath brings to the film, where `view` sees it and it scatters `scattered`, times
-/// `weight`.
-[[nodiscard]] FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& vertex, const LensView& view,
-                                         const Rgb& scattered, float weight);
-
 /// Returns what the light path of `sample` brings to the film. Black contributions are left out.
 [[nodiscard]] std::vector<FilmLight> light_on_film(const World& world, const EyeSample& sample,
                                                    const IntegratorSettings& settings);

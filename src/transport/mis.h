@@ -69,7 +69,6 @@ struct DepartingDensities {
     double pdf_forward = 1.0;    ///< 1/sr, of the direction; 1/m², of the point across it, from infinity
     double cosine = 1.0;         ///< |cos theta_i|
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
-    bool is_from_infinity = false;
 
     /// Goes on through the boundary of a body that another hides: no connection passes it, so that merges count from
     /// there on as after a delta.
@@ -78,17 +77,16 @@ struct DepartingDensities {
         d += merged;
         merged = 0.0;
     }
-    /// Returns the densities at a vertex `squared_distance` m² away, >= 0, where the direction has the cosine
-    /// `cos_arriving`. The distance cancels in b, and divides nothing in a: media scatter light again after no distance
+    /// Returns the densities at a vertex `squared_distance` m² away, >= 0, or 1 where `pdf_forward` is per area, and
+    /// where the direction has the cosine `cos_arriving`. The distance cancels in b, and divides nothing in a: media scatter light again after no distance
     /// at all.
     [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
         const double across = pdf_forward * cos_arriving;
         // Without a branch, so that compilers do it for many at once.
         const bool arrives = across > 0.0;
         const double inverse = 1.0 / raised(across);
-        const double back = is_from_infinity ? 1.0 : raised(cosine);
-        const double area = is_from_infinity ? 1.0 : raised(squared_distance);
-        return {.a = arrives && is_connectible ? area * inverse : 0.0,
+        const double back = raised(cosine);
+        return {.a = arrives && is_connectible ? raised(squared_distance) * inverse : 0.0,
                 .b = arrives ? back * d * inverse : 0.0,
                 .merge_b = arrives ? back * merged * inverse : 0.0};
     }
@@ -128,8 +126,7 @@ struct SubpathProgress {
                      ? 1.0 / mis.raised(choice * (at_infinity ? direction : position))
                      : 0.0,
             .pdf_forward = at_infinity ? position : direction,
-            .cosine = static_cast<double>(sample.cos_theta),
-            .is_from_infinity = at_infinity};
+            .cosine = static_cast<double>(sample.cos_theta)};
 }
 
 /// Returns a and b at the first vertex of a light subpath, at `position`, where its ray has the cosine `cos_arriving`.
@@ -137,7 +134,9 @@ struct SubpathProgress {
                                                         const DepartingDensities& departing, const Vec3f& position,
                                                         double cos_arriving) {
     const EmissionSample& sample = emission.sample;
-    const auto squared_distance = static_cast<double>(length_squared(position - sample.position));
+    const double squared_distance = mis.world.lights().is_at_infinity(emission.light)
+                                        ? 1.0
+                                        : static_cast<double>(length_squared(position - sample.position));
     SubpathDensities arrived = departing.arrive(mis.raised, squared_distance, cos_arriving);
     // A light that is sampled for this vertex is chosen in another way than this one was, and so are its triangles.
     auto for_vertex =
@@ -157,7 +156,6 @@ struct SubpathProgress {
 [[nodiscard]] inline SubpathDensities arrive_from_lens(const MisContext& mis, DepartingDensities departing,
                                                        const CameraConnection& camera, double cos_arriving) {
     departing.pdf_forward = mis.samples_per_light_path * static_cast<double>(camera.importance_area);
-    departing.is_from_infinity = true;  // per area already
     return departing.arrive(mis.raised, 1.0, cos_arriving);
 }
 

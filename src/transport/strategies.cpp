@@ -78,13 +78,23 @@ StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& 
 
 std::optional<StrategyOnFilm> lamp_at_lens(const SubpathSample& sample, const Emission& emission) {
     if (!sample.lengths.keeps(1)) return {};
-    StrategySums sums;
-    const auto lamp = lamp_to_camera(sample, emission, [&](const LensView& view, float cosine) {
-        sums = sums_of_seen_light(sample.mis, emission, view.camera, cosine);
-        return 1.0f;
-    });
-    if (!lamp) return {};
-    return StrategyOnFilm{{lamp->value, sums}, lamp->film};
+    const World& world = sample.world();
+    const Vec2f lens = sample.pair(SubpathEnd::AtLight, 0, SubpathDimension::LightChoice);
+    const float time = sample.eye.ray.time;
+    const auto view = view_from_lens(world, emission.sample.position, lens, time);
+    if (!view) return {};
+    const SurfaceEmission emitted = world.emitters().surface_emission(emission, view->direction);
+    if (is_black(emitted.radiance)) return {};
+    Ray ray = connecting_ray(world.emitters().origin(emission, view->direction), view->camera.lens);
+    ray.time = time;
+    ray.alpha_key = sample.connection_key(SubpathEnd::AtLight, 0);
+    const Interior interior = interior_at_light(world, emission, view->direction);
+    const Rgb shown =
+        emitted.radiance * transmittance(world, interior, ray, view->distance, RayEnds::ToCamera) *
+        (emitted.cosine * view->camera.importance_area / (emission.sample.pdf_position_area * emission.probability)) *
+        visibility(world, ray, nullptr, RayEnds::ToCamera);
+    return StrategyOnFilm{{shown, sums_of_seen_light(sample.mis, emission, view->camera, emitted.cosine)},
+                          view->camera.film};
 }
 
 std::optional<StrategyOnFilm> light_at_lens(const SubpathSample& sample, const SubpathVertex& light) {
@@ -95,9 +105,15 @@ std::optional<StrategyOnFilm> light_at_lens(const SubpathSample& sample, const S
     if (!view) return {};
     const auto scattered = light.evaluate_both_ways(view->direction, TransportMode::Importance);
     if (is_black(scattered.f_cos)) return {};
-    const FilmLight shown = vertex_to_camera(sample, light, *view, scattered.f_cos, 1.0f);
-    return StrategyOnFilm{{shown.value, sums_at_lens(sample.mis, light, view->direction, view->camera, scattered)},
-                          shown.film};
+    Ray ray = connecting_ray(light.origin_towards(view->direction), view->camera.lens);
+    ray.time = sample.eye.ray.time;
+    ray.alpha_key = sample.connection_key(SubpathEnd::AtLight, light.index);
+    const Rgb shown =
+        light.throughput * scattered.f_cos * sample.wavelength_weight(light.is_dispersed) *
+        transmittance(world, light.interior_towards(view->direction), ray, view->distance, RayEnds::ToCamera) *
+        view->camera.importance_area * visibility(world, ray, nullptr, RayEnds::ToCamera);
+    return StrategyOnFilm{{shown, sums_at_lens(sample.mis, light, view->direction, view->camera, scattered)},
+                          view->camera.film};
 }
 
 void light_merged(const SubpathSample& sample, const SubpathVertex& eye, const PhotonMap& photons,

@@ -27,7 +27,7 @@ struct StrategyLight {
 
 /// Holds what t = 1 shows on the film.
 struct StrategyOnFilm : StrategyLight {
-    Vec2f film{0.0f, 0.0f};  ///< in [0, 1]², as CameraConnection::film
+    Vec2f film{0.0f, 0.0f};  ///< as FilmLight::film
 };
 
 /// Calls `add` with the light of s = 0: that of each thing that shines where an eye subpath meets `vertex`, at which it

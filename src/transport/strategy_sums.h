@@ -87,9 +87,8 @@ struct LightPointPdfs {
 /// Returns `sums_at_light` for a light that the ray has met infinitely far away. The vertex is a direction: its density
 /// is per solid angle on both sides, and so is that of the light.
 [[nodiscard]] inline StrategySums sums_from_afar(const MisContext& mis, const Vec3f& from, std::uint32_t light,
-                                                 const Vec3f& direction, DepartingDensities departing) {
+                                                 const Vec3f& direction, const DepartingDensities& departing) {
     const World& world = mis.world;
-    departing.is_from_infinity = false;
     return sums_at_light(mis, from, light,
                          {.sampled = world.environment().pdf_solid_angle(light, direction),
                           .emitted = world.environment().emission_pdf_solid_angle(light, direction)},

@@ -178,26 +178,14 @@ void SubpathWave::set_up_plain() {
 }
 
 void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
-    bool any_departed = false;
     for (std::size_t s = 0; s < surfaces_; ++s) {
         const std::size_t i = first + on_surface_[s];
-        const SubpathState& state = states_[i];
         ShadedSubpath& path = block_[on_surface_[s]];
         const bool is_plain = path.plain != nullptr;
         const Vec3f position = is_plain ? lanes_.position[path.lane] : path.point.position;
         const Vec3f normal = is_plain ? lanes_.geometric_normal[path.lane] : path.point.geometric_normal;
-        const auto cosine = static_cast<double>(abs_dot(rays_[i].direction, normal));
-        if (state.index > 1) {
-            arrivals_.set(s, state.departing, static_cast<double>(length_squared(position - state.from)), cosine);
-            any_departed = true;
-        } else {
-            path.arrived = arrive(job, i, position, cosine);
-        }
+        path.arrived = arrive(job, i, position, static_cast<double>(abs_dot(rays_[i].direction, normal)));
     }
-    if (!any_departed) return;
-    arrivals_.arrive(surfaces_, job.mis.raised);
-    for (std::size_t s = 0; s < surfaces_; ++s)
-        if (states_[first + on_surface_[s]].index > 1) block_[on_surface_[s]].arrived = arrivals_[s];
 }
 
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {

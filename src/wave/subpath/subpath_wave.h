@@ -9,7 +9,6 @@
 #include "wave/camera_wave.h"
 #include "wave/number_pairs.h"
 #include "wave/profile/wave_profile.h"
-#include "wave/subpath/arrival_columns.h"
 #include "wave/subpath/matte_lanes.h"
 #include "wave/subpath/subpath_job.h"
 #include "wave/subpath/subpath_state.h"
@@ -138,7 +137,6 @@ class SubpathWave {
     std::size_t surfaces_ = 0;
     MatteLanes lanes_;
     std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
-    ArrivalColumns arrivals_;
     std::array<bool, kBlockLanes> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_,
