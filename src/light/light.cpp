@@ -160,7 +160,7 @@ void look_at_environment(const Light& light, std::span<const Vec3f> directions, 
         light);
 }
 
-LightSelector::LightSelector(std::span<const Light> lights, float scene_radius) {
+AliasTable choice_by_power(std::span<const Light> lights, float scene_radius) {
     constexpr double kAny = 0.1;
     std::vector<double> weights;
     weights.reserve(lights.size());
@@ -173,7 +173,7 @@ LightSelector::LightSelector(std::span<const Light> lights, float scene_radius) 
     }
     for (double& weight : weights)
         if (weight > 0.0) weight += kAny / (1.0 - kAny) * total / shining;
-    table_ = AliasTable(weights);
+    return AliasTable(weights);
 }
 
 }  // namespace etendue

@@ -96,22 +96,8 @@ void turn_emission(const Light& light, EmissionSample& sample, const Vec3f& dire
 /// Fills `seen` with the radiance and the density of `sample_light_compensated` along as many `directions` at once.
 void look_at_environment(const Light& light, std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen);
 
-/// Chooses a light by its power, and one time in ten any: a lamp beside the sun must be found too, and the light of one
-/// that is almost never chosen would come as fireflies.
-class LightSelector {
-  public:
-    LightSelector() = default;
-    LightSelector(std::span<const Light> lights, float scene_radius);
-
-    /// Chooses a light with `u` in [0, 1)². The selector must not be empty.
-    [[nodiscard]] AliasTable::Choice sample(Vec2f u) const { return table_.sample(u); }
-    [[nodiscard]] float probability(std::size_t light) const { return table_.probability(light); }
-    [[nodiscard]] bool empty() const { return table_.empty(); }
-    [[nodiscard]] std::size_t size() const { return table_.size(); }
-    [[nodiscard]] std::size_t bytes() const { return table_.bytes(); }
-
-  private:
-    AliasTable table_;
-};
+/// Returns the choice of a light by its power, and one time in ten of any: a lamp beside the sun must be found too, and
+/// the light of one that is almost never chosen would come as fireflies.
+[[nodiscard]] AliasTable choice_by_power(std::span<const Light> lights, float scene_radius);
 
 }  // namespace etendue

@@ -71,11 +71,11 @@ LightEmitter::LightEmitter(const WorldData& data, const Materials& materials, co
     : data_(data),
       materials_(materials),
       media_(media),
-      selector_(data.lights, data.bounding_radius()),
+      choice_(choice_by_power(data.lights, data.bounding_radius())),
       aim_(specular_spheres(data)) {}
 
 Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool aims) const {
-    const AliasTable::Choice choice = selector_.sample(u_light);
+    const AliasTable::Choice choice = choice_.sample(u_light);
     Emission emission;
     emission.light = choice.index;
     emission.probability = choice.probability;

@@ -58,7 +58,7 @@ class LightEmitter {
     [[nodiscard]] Interior interior(const Emission& emission, const Vec3f& direction) const;
 
     /// Returns the probability with which `sample` chooses the light of this index.
-    [[nodiscard]] float probability(std::uint32_t light) const { return selector_.probability(light); }
+    [[nodiscard]] float probability(std::uint32_t light) const { return choice_.probability(light); }
     /// Returns the density of the direction of `ray` for rays of `sample` from its point, 1/sr, or for a light at
     /// infinity, whose direction is given, that of where they pass, 1/m² across it.
     [[nodiscard]] float pdf(const EmittedRay& ray, bool aims) const;
@@ -69,13 +69,13 @@ class LightEmitter {
     [[nodiscard]] float pdf_area(std::uint32_t light, const Vec3f& on_light) const;
 
     /// Returns the table that chooses.
-    [[nodiscard]] const LightSelector& selector() const { return selector_; }
+    [[nodiscard]] const AliasTable& choice() const { return choice_; }
 
   private:
     const WorldData& data_;
     const Materials& materials_;
     const Media& media_;
-    LightSelector selector_;
+    AliasTable choice_;
     LightAim aim_;
     LightAim no_aim_;
 };

@@ -49,13 +49,13 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
         std::ranges::any_of(data.fillings, [](const Filling& filling) { return filling.medium.scatters(); });
     traits.has_clear_bodies =
         has_surface([](const Material& material) { return material.is_clear && material.filling != kNone; });
-    traits.has_lights = !emitters.selector().empty();
+    traits.has_lights = !emitters.choice().empty();
     traits.has_delta_lights = std::ranges::any_of(data.lights, is_delta_light);
     traits.has_sampled_lights = !lights.tree().empty();
     traits.chooses_lights = lights.tree().has_choice();
     traits.chooses_lights_by_receiver =
         lights.tree().depends_on_receiver() || std::ranges::any_of(data.lights, needs_exact_point);
-    traits.chooses_emitters = emitters.selector().size() > 1;
+    traits.chooses_emitters = emitters.choice().size() > 1;
     traits.has_environment = data.environment != kNone;
     traits.environment_visible_to_camera = data.environment_visible;
     traits.samples_lights_in_media =

@@ -50,7 +50,7 @@ WorldStatistics World::statistics() const {
     }
     s.instances = data.instances.size();
     s.lights = data.lights.size();
-    s.light_bytes = parts_->emitters.selector().bytes() + parts_->lights.tree().bytes() +
+    s.light_bytes = parts_->emitters.choice().bytes() + parts_->lights.tree().bytes() +
                     vector_bytes(data.lights, data.emitter_of_light, data.light_of_slot);
     for (const Light& light : data.lights) s.light_bytes += light_bytes(light);
     s.isa = data.bvh->instruction_set();

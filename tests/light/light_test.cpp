@@ -21,10 +21,10 @@ std::vector<Light> mixed_lights() {
     return lights;
 }
 
-TEST(LightSelector, ChoosesByPower) {
+TEST(ChoiceByPower, ChoosesByPower) {
     const std::vector<Light> lights = mixed_lights();
     const float radius = 2.0f;
-    const LightSelector selector(lights, radius);
+    const AliasTable selector = choice_by_power(lights, radius);
     double total = 0.0;
     for (const Light& light : lights) total += static_cast<double>(light_power(light, radius));
     constexpr int kSamples = 40'000;
@@ -52,20 +52,20 @@ TEST(LightSelector, ChoosesByPower) {
 }
 
 // The light of a lamp that is never chosen beside the sun would be missing, or come as fireflies.
-TEST(LightSelector, NoLightIsStarved) {
+TEST(ChoiceByPower, NoLightIsStarved) {
     const std::vector<Light> lights = {PointLight{{0, 0, 0}, Rgb(1e-6f)}, DirectionalLight{{0, -1, 0}, Rgb(1e5f)}};
-    EXPECT_NEAR(LightSelector(lights, 1000.0f).probability(0), 0.05f, 1e-4f);
+    EXPECT_NEAR(choice_by_power(lights, 1000.0f).probability(0), 0.05f, 1e-4f);
 }
 
-TEST(LightSelector, WithoutPowerAllAreEquallyLikely) {
+TEST(ChoiceByPower, WithoutPowerAllAreEquallyLikely) {
     const std::vector<Light> lights = {PointLight{{0, 0, 0}, Rgb(0.0f)}, ConstantEnvironment{Rgb(0.0f)}};
-    const LightSelector selector(lights, 1.0f);
+    const AliasTable selector = choice_by_power(lights, 1.0f);
     EXPECT_FLOAT_EQ(selector.probability(0), 0.5f);
     EXPECT_FLOAT_EQ(selector.probability(1), 0.5f);
 }
 
-TEST(LightSelector, IsEmptyWithoutLights) {
-    EXPECT_TRUE(LightSelector({}, 1.0f).empty());
+TEST(ChoiceByPower, IsEmptyWithoutLights) {
+    EXPECT_TRUE(choice_by_power({}, 1.0f).empty());
 }
 
 TEST(Light, OnlyEnvironmentsShineFromInfinity) {

@@ -358,7 +358,7 @@ TEST(LightTree, WeighsLampsAsTheyContribute) {
         for (int x = 0; x < 100; ++x)
             lights.emplace_back(PointLight{{static_cast<float>(x), 2.0f, static_cast<float>(z)}, Rgb(1.0f)});
     const LightTree tree(lights, 100.0f);
-    const LightSelector by_power(lights, 100.0f);
+    const AliasTable by_power = choice_by_power(lights, 100.0f);
     Random random(9);
     double tree_variance = 0.0;
     double floor_variance = 0.0;
