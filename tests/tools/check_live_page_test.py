@@ -4,7 +4,6 @@ Usage: check_live_page_test.py PROGRAM"""
 
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -12,9 +11,8 @@ NO_BROWSER = 2
 
 
 def main():
-    with tempfile.TemporaryDirectory() as shots:
-        check = [sys.executable, "-B", ROOT / "tools/ci/check_live_page", sys.argv[1], ROOT / "scenes/cornell-box"]
-        status = subprocess.run([*check, "-o", shots], check=False).returncode
+    check = [sys.executable, "-B", ROOT / "tools/ci/check_live_page", sys.argv[1], ROOT / "scenes/cornell-box"]
+    status = subprocess.run(check, check=False).returncode
     if status == NO_BROWSER:
         # As GTEST_SKIP() says it, so that tools/test lists it.
         print("check_live_page_test: Skipped\nthere is no browser")

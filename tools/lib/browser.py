@@ -19,7 +19,8 @@ TIMEOUT = 60  # seconds for an answer of the browser
 class Browser:
     """Chromium's DevTools protocol over a pair of pipes: JSON objects that end in a zero byte."""
 
-    def __init__(self, program, profile):
+    def __init__(self, program, profile, takes_screenshots=True):
+        self.takes_screenshots = takes_screenshots
         # The browser reads from descriptor 3 and writes to 4: ours are moved out of their way.
         ours = [fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in (*os.pipe(), *os.pipe())]
         theirs_in, self.output, self.input, theirs_out = ours
@@ -128,6 +129,8 @@ class Browser:
         return text
 
     def screenshot(self, path, width, scheme):
+        if not self.takes_screenshots:
+            return
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
         self.settle()
         size = self.call("Page.getLayoutMetrics")["cssContentSize"]

@@ -12,7 +12,8 @@ from .browser import Browser, faults_of_events
 
 def photograph(browser, url, shots, widths):
     """Leaves a picture of the whole page of each width, light and dark; yields a fault if it is wider than its window."""
-    shots.mkdir(parents=True, exist_ok=True)
+    if browser.takes_screenshots:
+        shots.mkdir(parents=True, exist_ok=True)
     for width in widths:
         browser.load(url, width)
         for scheme in ("light", "dark"):
@@ -27,6 +28,7 @@ def main(description, check, data_name="report.json"):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=Path, metavar="DIR", help="a report")
     parser.add_argument("-o", "--output", type=Path, metavar="SHOTS", help="default: DIR/screenshots")
+    parser.add_argument("--no-screenshots", action="store_true", help="leave none, in half the time")
     arguments = parser.parse_args()
     program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if not program:
@@ -39,7 +41,7 @@ def main(description, check, data_name="report.json"):
     shots = arguments.output or arguments.directory / "screenshots"
     faults = []
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        browser = Browser(program, profile)
+        browser = Browser(program, profile, takes_screenshots=not arguments.no_screenshots)
         try:
             for fault in check(browser, page.as_uri(), json.loads(data.read_text()), shots):
                 faults.append(fault)
@@ -51,5 +53,6 @@ def main(description, check, data_name="report.json"):
     for fault in dict.fromkeys(faults):
         print(f"{arguments.directory}: {fault}", file=sys.stderr)
     if not faults:
-        print(f"{arguments.directory}: the page is sound; screenshots are in {shots}")
+        where = "" if arguments.no_screenshots else f"; screenshots are in {shots}"
+        print(f"{arguments.directory}: the page is sound{where}")
     return 1 if faults else 0
