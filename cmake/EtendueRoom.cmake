@@ -1,15 +1,16 @@
-# etendue_room(<name> SOURCES ... [DEPENDS room...] [PUBLIC target...] [PRIVATE target...] [QUICKLY])
+# etendue_room(<name> SOURCES ... [DEPENDS room...] [PUBLIC target...] [PRIVATE target...] [QUICKLY] [QUICKLY_IN_TESTS])
 #
 # One static library per folder of src/. DEPENDS lists other rooms and is the architecture table of src/README.md in
 # executable form: a room that is not listed cannot be linked, and tools/dev/check_includes.py checks headers against the same
-# table. Third-party targets go to PRIVATE unless the room's headers include them. QUICKLY: it is optimised little.
+# table. Third-party targets go to PRIVATE unless the room's headers include them. QUICKLY: it is optimised little;
+# QUICKLY_IN_TESTS: only where ETENDUE_QUICK_BUILD asks for a short build.
 function(etendue_room name)
-  cmake_parse_arguments(ARG "QUICKLY" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "QUICKLY;QUICKLY_IN_TESTS" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
   add_library(etendue_${name} STATIC ${ARG_SOURCES})
   target_include_directories(etendue_${name} PUBLIC "${PROJECT_SOURCE_DIR}/src")
   list(TRANSFORM ARG_DEPENDS PREPEND etendue_)
   target_link_libraries(etendue_${name} PUBLIC ${ARG_DEPENDS} ${ARG_PUBLIC} PRIVATE etendue_options ${ARG_PRIVATE})
-  if(ARG_QUICKLY)
+  if(ARG_QUICKLY OR (ARG_QUICKLY_IN_TESTS AND ETENDUE_QUICK_BUILD))
     target_compile_options(etendue_${name} PRIVATE ${ETENDUE_QUICK_OPTIONS})
     target_precompile_headers(etendue_${name} REUSE_FROM etendue_quick_headers)
   else()
