@@ -206,6 +206,18 @@ TEST(Render, TheTimeLimitStopsBetweenPassesAndAgreesWithAShorterRender) {
     EXPECT_TRUE(same_bytes(render_now(world, "path", options, 2).film.resolve(), result.film.resolve()));
 }
 
+TEST(Render, ProgressIsThatOfTheLimitOfTime) {
+    const World world = compile(busy_scene(64, 64));
+    RenderOptions options = options_for(64, 64, 1u << 20);
+    options.time_limit_seconds = 0.5;
+    std::vector<RenderProgress> told;
+    (void)render_now(world, "path", options, 2, [&](const RenderProgress& now) { told.push_back(now); });
+    ASSERT_GT(told.size(), 2u);
+    EXPECT_EQ(told.back().fraction, 1.0);
+    for (const RenderProgress& now : told)
+        EXPECT_GE(now.fraction, std::min(1.0, now.seconds / options.time_limit_seconds) - 1e-9);
+}
+
 TEST(Render, SamplesThatOverflowAreDroppedCountedAndLocated) {
     // One wall in the left half shines so brightly that two reflections overflow.
     SceneDesc scene = empty_scene();

@@ -1,5 +1,6 @@
 #include "session/prepared_scene.h"
 
+#include "image/write.h"
 #include "program/small_files.h"
 
 #include <functional>
@@ -21,6 +22,24 @@ TEST(PrepareScene, AddsWhatIsMissingAndSaysSo) {
     const PreparedScene prepared = prepare_scene(folder.path(), {});
     EXPECT_TRUE(prepared.scene.environment.enabled);
     EXPECT_FALSE(prepared.problems.all().empty());
+}
+
+TEST(PrepareScene, AnotherEnvironmentKeepsTheRotationAlone) {
+    const TestFolder folder;
+    write_scene(folder.path());
+    write_file(
+        folder / "render.json",
+        R"({"environment": {"color": [0.2, 0.2, 0.2], "scale": 0.05, "rotation": 1, "visible_to_camera": false}})");
+    SettingsOverrides overrides;
+    overrides.environment = (folder / "other.exr").string();
+    ImageF sky(2, 1, 3);
+    write_image(folder / "other.exr", sky, {});
+    const EnvironmentDesc environment = prepare_scene(folder.path(), overrides).scene.environment;
+    EXPECT_EQ(environment.image, folder / "other.exr");
+    EXPECT_EQ(environment.color, Rgb(1.0f));
+    EXPECT_EQ(environment.scale, 1.0f);
+    EXPECT_EQ(environment.rotation, 1.0f);
+    EXPECT_TRUE(environment.visible_to_camera);
 }
 
 TEST(PrepareScene, FramesHaveOneCameraAndOneGround) {
