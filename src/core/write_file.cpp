@@ -1,5 +1,6 @@
 #include "core/write_file.h"
 
+#include "core/content_hash.h"
 #include "core/error.h"
 #include "core/system_error_text.h"
 
@@ -68,8 +69,14 @@ std::string host_name() {
 /// Names of temporary files: a dot before the target's name, and the writer's host and a number behind it.
 constexpr std::string_view kTemporaryEnd = ".etendue.tmp";
 std::filesystem::path temporary_path(const std::filesystem::path& target, int attempt) {
-    return target.parent_path() /
-           fmt::format(".{}.{}-{}{}", target.filename().string(), host_name(), attempt, kTemporaryEnd);
+    constexpr std::size_t kLongestName = 255;  // bytes, on most file systems
+    const auto named = [&](const std::string& name) {
+        return fmt::format(".{}.{}-{}{}", name, host_name(), attempt, kTemporaryEnd);
+    };
+    const std::string name = target.filename().string();
+    std::string temporary = named(name);
+    if (temporary.size() > kLongestName) temporary = named(content_hex(name));
+    return target.parent_path() / temporary;
 }
 
 /// True if `path` is still the name of the open file `fd`.

@@ -99,7 +99,9 @@ class Parser {
         const auto repeat = [&](int least, int most) {
             node = add({.kind = ExpressionNode::Kind::Repeat, .children = {node}, .least = least, .most = most});
         };
-        for (;;) {
+        constexpr int kMostSigns = 8;
+        for (int signs = 0;; ++signs) {
+            if (signs > kMostSigns) fail(fmt::format("more than {} signs of repetition in a row", kMostSigns), at_);
             if (take('*'))
                 repeat(0, ExpressionNode::kEndless);
             else if (take('+'))

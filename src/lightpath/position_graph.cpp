@@ -38,11 +38,7 @@ class Builder {
         const Ends whole = build(expression_.nodes.size() - 1);
         connect({beginning}, whole.first);
         for (const std::size_t p : whole.last) graph_.positions[p].may_end = true;
-        for (std::size_t p = beginning; p < graph_.positions.size(); ++p) {
-            auto& following = graph_.positions[p].following;
-            std::ranges::sort(following);
-            following.erase(std::unique(following.begin(), following.end()), following.end());
-        }
+        for (std::size_t p = beginning; p < graph_.positions.size(); ++p) make_unique(graph_.positions[p].following);
     }
 
   private:
@@ -53,8 +49,18 @@ class Builder {
         return graph_.positions.size() - 1;
     }
 
+    static void make_unique(std::vector<std::size_t>& positions) {
+        std::ranges::sort(positions);
+        positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    }
+
     void connect(const std::vector<std::size_t>& from, const std::vector<std::size_t>& to) {
-        for (const std::size_t p : from) append(graph_.positions[p].following, to);
+        for (const std::size_t p : from) {
+            std::vector<std::size_t>& following = graph_.positions[p].following;
+            append(following, to);
+            // Repetitions of repetitions say the same again and again.
+            if (following.size() > 2 * kMostPositions) make_unique(following);
+        }
     }
 
     Ends build(std::size_t index) {

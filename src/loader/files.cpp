@@ -93,8 +93,9 @@ std::string similar_file(const fs::path& root, std::string_view name) {
     constexpr std::size_t kMostFiles = 1000;
     std::vector<std::string> names;
     std::error_code code;
-    for (fs::recursive_directory_iterator entry(root, code), end; !code && entry != end && names.size() < kMostFiles;
-         entry.increment(code)) {
+    std::size_t seen = 0;
+    for (fs::recursive_directory_iterator entry(root, code), end; !code && entry != end && seen < kMostFiles;
+         entry.increment(code), ++seen) {
         std::error_code ignored;
         if (!entry->is_regular_file(ignored)) continue;
         names.push_back(entry->path().lexically_relative(root).generic_string());

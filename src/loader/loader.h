@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
@@ -66,6 +67,9 @@ struct LoadedScene {
 /// Loads the scene directory or file `path` as `load_scene` does, for `inspect`: every problem is returned, none is
 /// thrown.
 [[nodiscard]] LoadedScene inspect_scene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// Names the file that says how a scene directory is rendered.
+inline constexpr std::string_view kSettingsName = "render.json";
 
 /// Returns the name that a user would give the scene directory or file `path`, also for "." and "scenes/box/".
 [[nodiscard]] std::string scene_name(const std::filesystem::path& path);

@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kSettingsName = "render.json";
-
 const SceneLoader* find_loader(const fs::path& file) {
     for (const auto& loader : scene_loaders()) {
         if (loader->can_load(file)) return loader.get();
@@ -163,6 +161,8 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
                               : path;
     if (settings && !is_directory && is_for_another_file(*settings, scene.directory, scene.file)) {
         problems.note(settings->location, fmt::format("ignored: it is for '{}'", settings->scene));
+        // It is not read, and yet no output may take its place.
+        if (!settings->file.empty()) scene.inputs.push_back(settings->file);
         settings = read_given_settings(options.settings, problems);
     }
 

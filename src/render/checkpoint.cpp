@@ -235,6 +235,8 @@ Film get_film(Reader& in) {
         const PixelFilter filter = get_filter(in);
         const auto light_paths = in.get<std::uint64_t>();
         const LayerLayout& layout = layers.layout();
+        const std::uint64_t images = 1 + layout.light + (layout.has_moments ? 1 : 0);
+        if (in.left() / sizeof(SplatSum) / images < splat_window.area()) in.fail();
         splats.emplace(width, height, splat_window, filter, layout.light, layout.has_moments);
         std::vector<SplatSum> splat_sums = in.get_many<SplatSum>(splats->sums().size());
         splats->restore(std::move(splat_sums), light_paths);
@@ -295,7 +297,8 @@ bool is_consistent(const RenderState& state) {
     const Film& other = *state.every_other_pass;
     return state.every_other_spp <= state.spp_done && other.full_width() == film.full_width() &&
            other.full_height() == film.full_height() && other.window() == film.window() &&
-           other.splat_window() == film.splat_window();
+           other.splat_window() == film.splat_window() &&
+           other.layers().layout().without_lists() == film.layers().layout().without_lists();
 }
 
 /// The last character of kMagic is the format. Before this is asked, the hash has told that the file is whole.

@@ -96,7 +96,8 @@ struct ColorSettings {
 
 /// Frames of a sequence: `first`, `first + step`, … not beyond `last`.
 struct FrameRange {
-    static constexpr int kMaxFrame = 999'999;  ///< largest number of a frame, and of frames
+    static constexpr int kMaxFrame = 999'999;  ///< largest number of a frame
+    static constexpr double kMost = 100'000;   ///< most frames
 
     int first = 0;  ///< [-kMaxFrame, kMaxFrame]
     int last = 0;   ///< the same, >= first

@@ -26,7 +26,8 @@ inline bool is_some_text(std::string_view text) {
 }
 
 inline bool are_frames(std::span<const double> numbers) {
-    return numbers[0] <= numbers[1] && (numbers.size() < 3 || numbers[2] >= 1);
+    const double step = numbers.size() < 3 ? 1.0 : numbers[2];
+    return numbers[0] <= numbers[1] && step >= 1.0 && (numbers[1] - numbers[0]) / step < FrameRange::kMost;
 }
 
 inline bool are_times(std::span<const double> numbers) {
@@ -139,7 +140,7 @@ inline constexpr std::array kAnimationSettings{
                                  3,
                                  ':',
                                  "FRAME, FIRST:LAST or FIRST:LAST:STEP",
-                                 "first <= last and step >= 1",
+                                 "first <= last, step >= 1 and at most 100000 frames",
                                  are_frames,
                                  true},
             .decides = Decides::Schedule,

@@ -1,10 +1,12 @@
 #include "session/output_checks.h"
 
+#include "loader/loader.h"
 #include "picture/output_paths.h"
 #include "picture/render_setup.h"
 #include "session/image_files.h"
 #include "session/input_files.h"
 #include "session/up_to_date.h"
+#include "session/usage_error.h"
 
 #include <algorithm>
 #include <array>
@@ -72,6 +74,9 @@ void check_outputs(const PlannedOutput& planned) {
         layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
     require_inputs_kept(fmt::format("--output {}", output.string()), files_of_image(output, layers),
                         planned.scene.inputs);
+    if (!is_partial(output) && paths_of(planned).json.filename() == kSettingsName)
+        throw UsageError(fmt::format("--output '{}': its statistics would be a {}, which says how a scene is rendered",
+                                     output.string(), kSettingsName));
     if (is_partial(output)) {
         if (intersection(planned.options.window, planned.options.splat_window) != planned.options.window)
             throw SceneError(planned.scene.settings.at("/crop"),

@@ -48,9 +48,11 @@ struct SparedRays {
 }
 
 /// Returns the rays after which Russian roulette begins where `roulette_depth` is asked for. In bodies nothing else
-/// bounds a walk: neither media nor hidden boundaries add edges.
+/// bounds a walk: neither media nor hidden boundaries add edges. Without them, it begins late at most: a path between
+/// mirrors would end nowhere.
 [[nodiscard]] inline int first_roulette(const World& world, int roulette_depth) {
-    return world.traits().has_bodies ? std::min(roulette_depth, kLongPath) : roulette_depth;
+    constexpr int kLatest = 64 * kLongPath;
+    return std::min(roulette_depth, world.traits().has_bodies ? kLongPath : kLatest);
 }
 
 /// Bounds the throughput of the branches of trees that are followed in any case from below.

@@ -54,6 +54,8 @@ ImageF decode_face(const ImageDesc& desc) {
     const ImageSource source = source_of(desc);
     try {
         const ImageInfo info = read_image_info(source);
+        if (info.width != desc.width || info.height != desc.height)
+            throw IoError("its pixels do not fill its display window");
         const bool is_rgbd = info.format == "png" && info.channels == 4;
         const Texture texels =
             Texture::without_levels(read_image_8bit(source), {.encoding = Encoding::Srgb, .nearest = true});

@@ -155,8 +155,10 @@ RepairedValues count_repairs(const ImageSource& source) {
 }
 
 std::uint64_t resident_bytes(TextureUse use, const ImageInfo& info) {
-    const std::uint64_t texels = mip_texel_count(info.width, info.height) *
-                                 static_cast<std::uint64_t>(info.decoded_channels) * bytes_of(info.depth);
+    // While it is decoded, what lies beyond the display window takes memory, too.
+    const std::uint64_t most =
+        std::max<std::uint64_t>(mip_texel_count(info.width, info.height), info.data_window.area());
+    const std::uint64_t texels = most * static_cast<std::uint64_t>(info.decoded_channels) * bytes_of(info.depth);
     return use == TextureUse::NormalMap ? texels + slope_covariance_bytes(info.width, info.height) : texels;
 }
 
@@ -224,6 +226,9 @@ std::vector<std::size_t> TextureCompiler::for_each_request(const ThreadPool& thr
 }
 
 namespace {
+
+/// Bytes of textures that may be kept whatever the budget for them is.
+constexpr std::uint64_t kAlwaysResident = std::uint64_t{256} << 20;
 
 /// Returns true if an image is so long that the cache, whose look-ups go by the shorter side, would not find its
 /// coarser levels.
@@ -326,12 +331,18 @@ void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_
     // Embedded images are copied: the scene does not outlive compilation. Once, however many textures show them.
     std::map<const ImageDesc*, std::shared_ptr<const std::vector<std::byte>>> embedded;
     std::set<const ImageDesc*> reported;
+    std::uint64_t resident = 0;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
         const ImageDesc& image = image_of(requests_[i]);
         if (reported.insert(&image).second)
             warn_of_repairs(read_or_blame(image, [&] { return count_repairs(source_of(image)); }), name_of(image),
                             image.location, problems);
         if (!fills_display(infos[i]) || is_strip(infos[i])) {
+            resident += resident_bytes(requests_[i].second, infos[i]);
+            if (resident > std::max(budget, kAlwaysResident))
+                throw SceneError(image.location,
+                                 "the textures that cannot be read piece by piece, strips and those with a window of "
+                                 "their own, take more than --texture-memory");
             data.textures.push_back(
                 read_or_blame(image, [&] { return std::move(load(requests_[i], infos[i]).texture); }));
             continue;

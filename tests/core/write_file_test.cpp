@@ -60,6 +60,15 @@ TEST(WriteText, WritesAndReplaces) {
     EXPECT_EQ(folder.file_count(), 1u) << "no temporary file stays";
 }
 
+TEST(WriteText, NamesMayBeAsLongAsTheFileSystemTakes) {
+    const TemporaryFolder folder;
+    const auto path = folder / (std::string(250, 'n') + ".json");
+    write_text(path, "first");
+    write_text(path, "2nd");
+    EXPECT_EQ(text_of(path), "2nd");
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
 // After a loss of power the name stands for all bytes or for the old ones: docs/reliability.md.
 TEST(WriteFile, BytesAreOnTheDiskBeforeTheName) {
     const TemporaryFolder folder;

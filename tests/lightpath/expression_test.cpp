@@ -47,6 +47,8 @@ TEST(ParseExpression, HasBounds) {
     EXPECT_NE(error_of(std::string(5000, 'D')).first.find("longer than"), std::string::npos);
     EXPECT_NE(error_of("C" + std::string(1000, '(') + "D" + std::string(1000, ')') + "L").first.find("groups"),
               std::string::npos);
+    EXPECT_EQ(error_of("C D******** L").first, "");
+    EXPECT_NE(error_of("C D********* L").first.find("repetition"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 #include "loader/json_text.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -30,23 +34,42 @@ void take_from(const nlohmann::json* things, const std::string& pointer, ExtrasD
     }
 }
 
-/// Adds to `scene` what `extras` say of the thing `name`.
-void add(const GltfDocument& document, const GltfExtras& extras, ExtrasDesc::Of of, const std::string& name,
-         SceneDesc& scene) {
-    scene.extras.push_back({of, name, extras.json, document.at(extras.pointer)});
-}
+/// Bounds the bytes of all extras: any number of places may share what is said of a camera or a light.
+constexpr std::size_t kMostExtrasBytes = std::size_t{64} << 20;
 
-void read_extras_of_node(const GltfDocument& document, const GltfExtras& extras, SceneDesc& scene) {
-    const auto found = std::ranges::find(scene.nodes, static_cast<std::uint32_t>(extras.index), &NodeDesc::number);
-    if (found == scene.nodes.end()) return;
-    const CameraDesc* camera = nullptr;
-    for (const CameraDesc& each : scene.cameras)
-        if (!found->name.empty() && each.node == found->name) camera = &each;
-    if (camera != nullptr)
-        add(document, extras, ExtrasDesc::Of::Camera, camera->name, scene);
-    else
-        add(document, extras, ExtrasDesc::Of::Node, found->name, scene);
-}
+/// Gives a scene the extras of its document.
+class ExtrasReader {
+  public:
+    ExtrasReader(const GltfDocument& document, SceneDesc& scene) : document_(document), scene_(scene) {
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i) node_by_number_.emplace(scene.nodes[i].number, i);
+        for (const CameraDesc& camera : scene.cameras)
+            if (!camera.node.empty()) camera_of_node_[camera.node] = camera.name;
+    }
+
+    /// Adds what `extras` say of the thing `name`, unless that would be too much.
+    void add(const GltfExtras& extras, ExtrasDesc::Of of, const std::string& name) {
+        bytes_ += extras.json.size();
+        if (bytes_ > kMostExtrasBytes)
+            throw SceneError(document_.at(extras.pointer), "what extras say of all places takes more than 64 MiB");
+        scene_.extras.push_back({of, name, extras.json, document_.at(extras.pointer)});
+    }
+    void add_of_node(const GltfExtras& extras) {
+        const auto found = node_by_number_.find(static_cast<std::uint32_t>(extras.index));
+        if (found == node_by_number_.end()) return;
+        const std::string& node = scene_.nodes[found->second].name;
+        if (const auto camera = camera_of_node_.find(node); camera != camera_of_node_.end())
+            add(extras, ExtrasDesc::Of::Camera, camera->second);
+        else
+            add(extras, ExtrasDesc::Of::Node, node);
+    }
+
+  private:
+    const GltfDocument& document_;
+    SceneDesc& scene_;
+    std::size_t bytes_ = 0;
+    std::unordered_map<std::uint32_t, std::size_t> node_by_number_;
+    std::unordered_map<std::string, std::string> camera_of_node_;
+};
 
 }  // namespace
 
@@ -59,21 +82,22 @@ void take_extras(const nlohmann::json& document, GltfDocument& result) {
 }
 
 void read_extras(const GltfDocument& document, SceneDesc& scene) {
+    ExtrasReader reader(document, scene);
     // What is said of one node comes after what is said of all that share its data.
     for (const GltfExtras& extras : document.extras) {
         if (extras.of == ExtrasDesc::Of::Node) continue;
         const std::string thing = extras.pointer.substr(0, extras.pointer.rfind("/extras/"));
         if (extras.of == ExtrasDesc::Of::Material && extras.index < scene.materials.size())
-            add(document, extras, ExtrasDesc::Of::Material, scene.materials[extras.index].name, scene);
+            reader.add(extras, ExtrasDesc::Of::Material, scene.materials[extras.index].name);
         if (extras.of == ExtrasDesc::Of::Camera)
             for (const CameraDesc& camera : scene.cameras)
-                if (camera.location.pointer == thing) add(document, extras, ExtrasDesc::Of::Camera, camera.name, scene);
+                if (camera.location.pointer == thing) reader.add(extras, ExtrasDesc::Of::Camera, camera.name);
         if (extras.of == ExtrasDesc::Of::Light)
             for (const LightDesc& light : scene.lights)
-                if (light.location.pointer == thing) add(document, extras, ExtrasDesc::Of::Light, light.name, scene);
+                if (light.location.pointer == thing) reader.add(extras, ExtrasDesc::Of::Light, light.name);
     }
     for (const GltfExtras& extras : document.extras)
-        if (extras.of == ExtrasDesc::Of::Node) read_extras_of_node(document, extras, scene);
+        if (extras.of == ExtrasDesc::Of::Node) reader.add_of_node(extras);
 }
 
 }  // namespace etendue

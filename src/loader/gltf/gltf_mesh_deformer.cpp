@@ -48,9 +48,9 @@ MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& 
     const Result unchanged{{node.mesh}, false};
     if (!is_morphed && !is_skinned && !deformation.has_flat_triangles()) return unchanged;
 
-    std::optional<Binding> binding;
+    static const std::optional<Binding> kNone;
+    const std::optional<Binding>& binding = is_skinned ? binding_of(node.skin, where) : kNone;
     if (is_skinned) {
-        binding = bind(document_.skins[static_cast<std::size_t>(node.skin)], where);
         if (!binding) return unchanged;
         if (deformation.largest_joint() >= binding->joints.size()) {
             problems_.error(where, fmt::format("the mesh refers to joint {}, but the skin has {}",
@@ -114,6 +114,12 @@ std::vector<VertexStep> MeshDeformer::move(const PrimitiveDesc& primitive, const
     }
     thin_out(steps);
     return steps;
+}
+
+const std::optional<MeshDeformer::Binding>& MeshDeformer::binding_of(int skin, const SourceLocation& where) {
+    const auto known = bindings_.find(skin);
+    if (known != bindings_.end()) return known->second;
+    return bindings_[skin] = bind(document_.skins[static_cast<std::size_t>(skin)], where);
 }
 
 std::optional<MeshDeformer::Binding> MeshDeformer::bind(const GltfSkin& skin, const SourceLocation& where) {

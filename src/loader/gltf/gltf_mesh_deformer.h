@@ -6,6 +6,7 @@
 #include "loader/gltf/gltf_posed_nodes.h"
 #include "scene/scene_desc.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,6 +41,8 @@ class MeshDeformer {
         std::vector<Mat4d> to_world;      ///< from the mesh to the world by way of each joint
     };
 
+    /// Returns the binding of the skin of this glTF index, made once however many nodes have it.
+    [[nodiscard]] const std::optional<Binding>& binding_of(int skin, const SourceLocation& where);
     /// Nothing, with an error, if the skin cannot be had.
     [[nodiscard]] std::optional<Binding> bind(const GltfSkin& skin, const SourceLocation& where);
     [[nodiscard]] const std::vector<double>& weights_of(int node, const std::vector<double>& animated) const;
@@ -57,6 +60,7 @@ class MeshDeformer {
     const PosedNodes& nodes_;
     SceneDesc& scene_;
     ProblemList& problems_;
+    std::map<int, std::optional<Binding>> bindings_;  ///< by the skin's glTF index
 };
 
 }  // namespace etendue

@@ -80,7 +80,10 @@ class Placer {
           nodes_(nodes),
           scene_(scene),
           problems_(problems),
-          lights_(document, accessors, scene, problems) {}
+          lights_(document, accessors, scene, problems) {
+        for (const tinygltf::Light& light : document.model.lights)
+            longest_light_name_ = std::max(longest_light_name_, light.name.size());
+    }
 
     /// Adds to the scene every node that the scene shows, parents before their children.
     void add_nodes(std::span<const int> parents) {
@@ -112,11 +115,20 @@ class Placer {
             problems_.warning(where, "the node's transform is singular: its camera and light are left out");
             return;
         }
+        if (!accessors_.allocate(1, kBytesOfPlace + node.name.size() + name_bytes(node), where)) return;
         if (node.camera >= 0) place_camera(node, *rigid, motion);
         if (shines) {
             lights_.place(node, *rigid, where);
             if (!motion.empty()) ++moving_lights_;
         }
+    }
+
+    /// Returns the bytes that names of the node's camera and light may take.
+    [[nodiscard]] std::uint64_t name_bytes(const tinygltf::Node& node) const {
+        std::uint64_t bytes = 0;
+        if (node.camera >= 0) bytes = document_.model.cameras[static_cast<std::size_t>(node.camera)].name.size();
+        if (LightReader::has_light(node)) bytes += longest_light_name_;
+        return bytes;
     }
 
     void report_moving_lights() const {
@@ -134,7 +146,7 @@ class Placer {
         const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
         if (instancing != nullptr && !mesh.is_in_world_space)
             place_instances(node, mesh.mesh, *instancing, placed, where);
-        else if (!allocate_places(1, mesh.mesh, where))
+        else if (!allocate_places(1, node, mesh.mesh, where))
             return;
         else if (mesh.is_in_world_space)
             place_mesh(node, mesh.mesh, Mat4d(), {}, where, true);
@@ -143,9 +155,13 @@ class Placer {
     }
 
     /// Takes the memory of `count` places of `mesh` from what may still be decoded.
-    [[nodiscard]] bool allocate_places(std::size_t count, Handle<MeshDesc> mesh, const SourceLocation& where) {
+    [[nodiscard]] bool allocate_places(std::size_t count, const tinygltf::Node& node, Handle<MeshDesc> mesh,
+                                       const SourceLocation& where) {
         const std::size_t primitives = scene_.meshes[static_cast<std::size_t>(mesh.index)].primitives.size();
-        return accessors_.allocate(count, kBytesOfPlace + kBytesOfPlacedPrimitive * primitives, where);
+        // A name is as long as the file's writer likes, and every place has it.
+        const std::uint64_t name =
+            std::max(node.name.size(), scene_.meshes[static_cast<std::size_t>(mesh.index)].name.size());
+        return accessors_.allocate(count, kBytesOfPlace + name + kBytesOfPlacedPrimitive * primitives, where);
     }
 
     void place_instances(const tinygltf::Node& node, Handle<MeshDesc> mesh, const tinygltf::Value& extension,
@@ -155,7 +171,7 @@ class Placer {
             read_instance_transforms(extension, accessors_, at, problems_);
         if (!transforms) return;
         const std::span<const Mat4d> node_motion = nodes_.motion(placed.node);
-        if (!allocate_places(transforms->size(), mesh, at) ||
+        if (!allocate_places(transforms->size(), node, mesh, at) ||
             !accessors_.allocate(transforms->size() * node_motion.size(), sizeof(Mat4f), at))
             return;
         std::vector<Mat4d> motion(node_motion.size());
@@ -256,7 +272,8 @@ class Placer {
     std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
     std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
     std::size_t moving_lights_ = 0;
-    FreeNames camera_names_;  ///< cameras are chosen by name, so each has one of its own
+    std::size_t longest_light_name_ = 0;  ///< bytes
+    FreeNames camera_names_;              ///< cameras are chosen by name, so each has one of its own
 };
 
 /// How much of everything that nodes place a scene has.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,9 +25,10 @@ class RuleCheck {
         : document_(document), file_(file), problems_(problems) {}
 
     void run() {
+        for (const Json& used : list("extensionsUsed")) used_.insert(used.get<std::string>());
         check_tree(document_, "");
         for (const Json& required : list("extensionsRequired"))
-            if (!contains("extensionsUsed", required))
+            if (!used_.contains(required.get<std::string>()))
                 repairs_.add(Repair::RequiredNotUsed, 1, at("/extensionsRequired"));
         for_each("nodes", [this](const Json& node, const std::string& pointer) { check_node(node, pointer); });
         for_each("meshes", [this](const Json& mesh, const std::string& pointer) { check_mesh(mesh, pointer); });
@@ -66,10 +68,6 @@ class RuleCheck {
         static const Json kNone = Json::array();
         return document_.contains(key) ? document_[key] : kNone;
     }
-    [[nodiscard]] bool contains(const char* key, const Json& value) const {
-        const Json& values = list(key);
-        return std::find(values.begin(), values.end(), value) != values.end();
-    }
     template <typename Visit>
     void for_each(const char* key, const Visit& visit) const {
         const Json& elements = list(key);
@@ -96,7 +94,7 @@ class RuleCheck {
     void check_declared(const Json& extensions, const std::string& pointer) {
         for (const auto& [name, value] : extensions.items()) {
             const std::string child = child_pointer(pointer, name);
-            if (!contains("extensionsUsed", name)) repairs_.add(Repair::Undeclared, 1, at(child));
+            if (!used_.contains(name)) repairs_.add(Repair::Undeclared, 1, at(child));
             check_tree(value, child);
         }
     }
@@ -210,6 +208,7 @@ class RuleCheck {
     SourceLocation file_;
     ProblemList& problems_;
     RepairLog repairs_;
+    std::unordered_set<std::string> used_;  ///< extensions that the document declares
 };
 
 }  // namespace

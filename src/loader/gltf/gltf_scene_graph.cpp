@@ -3,19 +3,46 @@
 #include "core/shown_text.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <string_view>
 
 namespace etendue {
 
 namespace {
 
-/// True if an ancestor of `node` is in `listed`. There must be no cycles.
-bool is_below(int node, const std::vector<bool>& listed, const std::vector<int>& parents) {
-    for (int parent = parents[static_cast<std::size_t>(node)]; parent != kNoParent;
-         parent = parents[static_cast<std::size_t>(parent)])
-        if (listed[static_cast<std::size_t>(parent)]) return true;
-    return false;
-}
+/// Says of each node whether one of its ancestors is in `listed`. There must be no cycles.
+class Ancestors {
+  public:
+    Ancestors(const std::vector<bool>& listed, const std::vector<int>& parents)
+        : listed_(listed), parents_(parents), is_below_(parents.size()) {}
+
+    [[nodiscard]] bool has_listed(int node) {
+        // Up to what is known already, so that a chain is climbed once.
+        std::vector<std::size_t> climbed;
+        bool found = false;
+        for (auto at = static_cast<std::size_t>(node);;) {
+            if (is_below_[at]) {
+                found = *is_below_[at];
+                break;
+            }
+            climbed.push_back(at);
+            if (parents_[at] == kNoParent) break;
+            at = static_cast<std::size_t>(parents_[at]);
+            if (listed_[at]) {
+                found = true;
+                break;
+            }
+        }
+        for (const std::size_t at : climbed) is_below_[at] = found;
+        return found;
+    }
+
+  private:
+    const std::vector<bool>& listed_;
+    const std::vector<int>& parents_;
+    std::vector<std::optional<bool>> is_below_;
+};
 
 /// The nodes that scene `index` lists, but for those that others of them bring along. There must be no cycles.
 std::vector<int> roots_of_scene(const GltfDocument& document, std::size_t index, const std::vector<int>& parents,
@@ -38,7 +65,8 @@ std::vector<int> roots_of_scene(const GltfDocument& document, std::size_t index,
                              fmt::format("{} of the scene's nodes {}", count, what));
     };
     warn(repeated, "are listed again, and are shown once");
-    warn(std::erase_if(distinct, [&](int node) { return is_below(node, listed, parents); }),
+    Ancestors ancestors(listed, parents);
+    warn(std::erase_if(distinct, [&](int node) { return ancestors.has_listed(node); }),
          "are children of others of them, and are shown as such");
     const auto has_parent = [&](int node) { return parents[static_cast<std::size_t>(node)] != kNoParent; };
     warn(static_cast<std::size_t>(std::ranges::count_if(distinct, has_parent)),

@@ -134,6 +134,7 @@ class ExtrasMerger {
             overrides[extras.name] = change;
             return;
         }
+        if (!given->is_object()) return;  // that has been said
         yield_to(*given, kExtraStrengths, value);
         yield_to(*given, kExtraPlaces, value);
         value.update(*given);

@@ -39,11 +39,13 @@ class ProfileFiles {
     Handle<IesProfileDesc> read(const std::string& name, const SourceLocation& where, Severity severity) {
         try {
             const std::filesystem::path file = resolve_name(scene_.directory, name);
+            // It may have several names: "a.ies" and "./a.ies".
+            if (const auto known = by_file_.find(file.string()); known != by_file_.end()) return known->second;
             const std::vector<unsigned char> bytes = read_bytes(file, kMaxIesBytes);
             scene_.ies_profiles.push_back(
                 parse_ies({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, {file.string(), {}}));
             scene_.inputs.push_back(file);
-            return {static_cast<std::int32_t>(scene_.ies_profiles.size()) - 1};
+            return by_file_[file.string()] = {static_cast<std::int32_t>(scene_.ies_profiles.size()) - 1};
         } catch (const IoError& error) {
             problems_.add({severity, where, fmt::format("'{}': {}", shown(name), error.what())});
         } catch (const SceneError& error) {
@@ -58,6 +60,7 @@ class ProfileFiles {
     SceneDesc& scene_;
     ProblemList& problems_;
     std::map<std::string, Handle<IesProfileDesc>> handles_;
+    std::map<std::string, Handle<IesProfileDesc>> by_file_;
 };
 
 /// Returns how many units of lamps (candela, lux) make one of the image.

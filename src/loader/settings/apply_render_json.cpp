@@ -32,8 +32,8 @@ std::vector<std::string_view> names_of(const std::vector<Item>& items) {
 template <typename Item>
 bool check_name(const std::vector<Item>& items, std::string_view kind, const std::string& name,
                 const SourceLocation& where, ProblemList& problems) {
+    if (!name.empty() && std::ranges::find(items, name, &Item::name) != items.end()) return true;
     const std::vector<std::string_view> names = names_of(items);
-    if (std::ranges::binary_search(names, std::string_view(name))) return true;
     problems.error(where, fmt::format("the scene has no {} '{}'; {}", kind, shown(name), name_hint(name, names)));
     return false;
 }

@@ -47,6 +47,13 @@ LoadedScene load_extras(const Extras& extras, const std::string& settings = "") 
     return inspect_scene(dir.path());
 }
 
+TEST(Extras, DoNotHideWhatIsWrongWithRenderJson) {
+    for (const char* const settings : {R"({"materials": {"paper": 5}})", R"({"materials": {"paper": null}})"}) {
+        const LoadedScene loaded = load_extras({.material = {{"roughness", 0.25}}}, settings);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "", "/materials/paper")) << listing(loaded.problems);
+    }
+}
+
 TEST(Extras, SetWhatRenderJsonSets) {
     const LoadedScene loaded = load_extras({.material = {{"visible_to_camera", false}, {"roughness", 0.25}},
                                             .node = {{"radius", 0.5}},
