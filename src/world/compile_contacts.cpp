@@ -116,13 +116,22 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
         return data.materials[data.geometries[slots[slot].geometry].material];
     };
     std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, Touch>>> partners;  // of sheets
-    double distance = 0.0;
     for (const auto& [pair, touch] : touches.pairs)
-        for (const auto& [sheet, other] : {pair, std::pair(pair.second, pair.first)}) {
-            if (!is_sheet(material(sheet))) continue;
-            partners[sheet].emplace_back(other, touch);
-            distance = std::max(distance, touch.distance);
-        }
+        for (const auto& [sheet, other] : {pair, std::pair(pair.second, pair.first)})
+            if (is_sheet(material(sheet))) partners[sheet].emplace_back(other, touch);
+    // Sheets that touch come to share the largest distance of theirs, and no others: rounding moves more far away.
+    std::map<std::uint32_t, double> distances;
+    for (bool grows = true; grows;) {
+        grows = false;
+        for (const auto& [sheet, touching] : partners)
+            for (const auto& [other, touch] : touching) {
+                const auto of_other = distances.find(other);
+                const double most = std::max(touch.distance, of_other == distances.end() ? 0.0 : of_other->second);
+                double& own = distances[sheet];
+                grows = grows || most > own;
+                own = std::max(own, most);
+            }
+    }
     std::map<std::uint32_t, int> steps;  // along their normals
     for (const auto& [sheet, touching] : partners) {
         int way = 1;
@@ -145,7 +154,7 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
     bool any = false;
     for (const auto& [sheet, step] : steps) {
         if (step == 0) continue;
-        move_along_normals(slots[sheet], static_cast<float>(2.0 * distance * step), data);
+        move_along_normals(slots[sheet], static_cast<float>(2.0 * distances[sheet] * step), data);
         any = true;
     }
     return any;
@@ -194,6 +203,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
     data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
     Touches touches = find_touches(data, threads);
     if (move_sheets_apart(touches, data)) {
+        data.bvh.reset();  // memory need not hold both
         data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
         touches = find_touches(data, threads);
     }
@@ -213,7 +223,8 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
     for (const auto& [pair, touch] : touches.pairs)
         for (const std::uint32_t slot : {pair.first, pair.second}) {
             contacts[slot].reach = std::max(contacts[slot].reach, static_cast<float>(touch.distance));
-            if (moves(data, slots[slot]))
+            // Where one of both moves, they touch in other places at other times.
+            if (moves(data, slots[pair.first]) || moves(data, slots[pair.second]))
                 contacts[slot].is_anywhere = true;
             else
                 for (const Bounds& place : touch.places) contacts[slot].add(place);
@@ -225,6 +236,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
                       "touch, which takes longer");
         for (const Slot& slot : slots) {
             contacts[slot.index].is_anywhere = true;
+            if (emits(slot.index)) data.shares_place_of_slot[slot.index] = 1;  // it may
             for (std::uint32_t t = 0; t < touching_triangles(data.geometries[slot.geometry]); ++t) {
                 const float clear = triangle_plane(data, slot.instance, slot.geometry, t).clearance;
                 contacts[slot.index].reach = std::max(contacts[slot.index].reach, contact_distance(clear, clear));

@@ -20,7 +20,9 @@ Geometry take_geometry(PrimitiveDesc& primitive) {
     geometry.tangents = std::move(primitive.tangents);
     geometry.uv0 = std::move(primitive.uv0);
     geometry.uv1 = std::move(primitive.uv1);
-    geometry.colors = std::move(primitive.colors);
+    // White changes nothing.
+    if (std::ranges::any_of(primitive.colors, [](const Vec4f& color) { return color != Vec4f(1.0f); }))
+        geometry.colors = std::move(primitive.colors);
     geometry.triangles = std::move(primitive.triangles);
     geometry.motion = std::move(primitive.motion);
     for (VertexStep& step : geometry.motion) step.positions.reserve(step.positions.size() + 1);

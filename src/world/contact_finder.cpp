@@ -40,12 +40,16 @@ class TouchFinder {
         std::sort(queries_.begin(), queries_.end());
         queries_.erase(std::unique(queries_.begin(), queries_.end()), queries_.end());
         const std::vector<Query>& queries = queries_;
+        // What threads find depends on them once there is too much to look at: then it is not used.
+        const Touches certain = found_;
         const std::size_t chunk_size = std::clamp<std::size_t>(queries.size() / 256, 1, 64);
         threads.parallel_for((queries.size() + chunk_size - 1) / chunk_size, [&](std::size_t chunk, int) {
             for (std::size_t i = chunk * chunk_size; i < std::min(queries.size(), (chunk + 1) * chunk_size); ++i)
                 look_around(queries[i]);
         });
-        found_.is_complete = work_ < most_work_;
+        const bool is_complete = work_ < most_work_;
+        if (!is_complete) found_ = certain;
+        found_.is_complete = is_complete;
         return std::move(found_);
     }
 
@@ -115,6 +119,12 @@ class TouchFinder {
         for (const PlacedSurface& a : surfaces_) {
             if (!a.matters) continue;
             if (is_crowd) {
+                // Each triangle takes a visit at least.
+                if (queries_.size() + a.triangles > most_work_) {
+                    work_ = most_work_;
+                    queries_.clear();
+                    return;
+                }
                 if (is_met(a))
                     for (std::uint32_t t = 0; t < a.triangles; ++t) queries_.push_back({a.slot, t});
                 continue;
@@ -136,7 +146,8 @@ class TouchFinder {
         std::vector<BoundedTriangle> of_b;
         const double around_a = list_within(a, b.bounds, of_a);
         const double around_b = list_within(b, a.bounds, of_b);
-        work_ += a.triangles + b.triangles;
+        // To see that bounds are apart takes an eighth of what it takes to look.
+        work_ += (a.triangles + b.triangles) / 8;
         if (of_a.size() * of_b.size() > kMostPairs) {
             const bool a_is_less = around_a <= around_b;
             for (const BoundedTriangle& t : a_is_less ? of_a : of_b)
@@ -152,7 +163,6 @@ class TouchFinder {
                     hold_against(a.slot, here, b.slot, other.triangle);
                     ++held;
                 }
-            // To see that bounds are apart takes an eighth of what it takes to look.
             work_ += of_b.size() / 8 + held;
         }
     }

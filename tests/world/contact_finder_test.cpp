@@ -50,6 +50,28 @@ TEST(ContactFinder, BoundsThatRoundingMakesOverlapAreWork) {
     EXPECT_TRUE(all.pairs.empty());
 }
 
+// A sheet that lies on a table moves before it, by what rounding may be there and not by what it may be far away.
+TEST(Contacts, SheetsMoveByWhatRoundingMayBeWhereTheyAre) {
+    MaterialDesc pane;
+    pane.metallic = 0.0f;
+    pane.roughness = 0.0f;
+    pane.transmission = 1.0f;
+    const auto distance_to_sheet = [&](bool has_far_one) {
+        SceneDesc scene = empty_scene();
+        const Handle<MaterialDesc> table = add_material(scene, diffuse(Rgb(0.5f)));
+        const Handle<MaterialDesc> glass = add_material(scene, pane);
+        for (const float x : {0.0f, 2000.0f}) {
+            if (x > 0.0f && !has_far_one) continue;
+            add_object(scene, quad({x, 0, 0}, {2, 0, 0}, {0, 0, -2}), table);
+            add_object(scene, quad({x, 0, 0}, {1, 0, 0}, {0, 0, -1}), glass);
+        }
+        const World world = compile(std::move(scene));
+        return intersect(world, {.origin = {0.1f, 0.5f, 0.1f}, .direction = {0, -1, 0}}).t;
+    };
+    EXPECT_NEAR(distance_to_sheet(true), distance_to_sheet(false), 1e-6f);
+    EXPECT_LT(distance_to_sheet(false), 0.5f);
+}
+
 }  // namespace
 
 }  // namespace etendue::test

@@ -336,7 +336,7 @@ TEST_F(MaterialEvaluation, WhatIsTheSameEverywhereIsEvaluatedOnce) {
     // Converts with the world's matrix, as a lobe does that vertex colours have made for its point.
     SceneDesc colored = empty_scene();
     PrimitiveDesc white = quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0});
-    white.colors.assign(4, {1.0f, 1.0f, 1.0f, 1.0f});
+    white.colors.assign(4, {0.5f, 1.0f, 1.0f, 1.0f});
     add_object(colored, white, add_material(colored, material));
     const World varied = compile(colored);
     EXPECT_TRUE(is_made_for_the_point(varied, 0.0f));

@@ -83,8 +83,11 @@ TEST_F(PlainSurfaces, AreNotWhatMirrorsEmitsOrHasMoreLayers) {
 }
 
 TEST_F(PlainSurfaces, AreNotWhatHasVertexColors) {
-    const World world = with([](MaterialDesc&) {}, [](PrimitiveDesc& p) { p.colors.assign(4, {1, 1, 1, 1}); });
-    EXPECT_EQ(surface(world), nullptr);
+    const auto colored = [&](const Vec4f& color) {
+        return with([](MaterialDesc&) {}, [&](PrimitiveDesc& p) { p.colors.assign(4, color); });
+    };
+    EXPECT_EQ(surface(colored({1, 1, 1, 0.5f})), nullptr);
+    EXPECT_NE(surface(colored({1, 1, 1, 1})), nullptr) << "white changes nothing";
 }
 
 TEST_F(PlainSurfaces, AreNotWhatIsAnInstance) {

@@ -51,7 +51,7 @@ class PlainSurfacesInPath : public testing::Test {
         ball.roughness = 0.5f;
         ball.base_color = {0.8f, 0.5f, 0.2f};
         const auto add = [&](PrimitiveDesc primitive, MaterialDesc material) {
-            if (!plain) primitive.colors.assign(primitive.positions.size(), {1, 1, 1, 1});
+            if (!plain) primitive.colors.assign(primitive.positions.size(), {1, 1, 1, 0.5f});
             add_object(scene, std::move(primitive), add_material(scene, std::move(material)));
         };
         PrimitiveDesc ground = quad({0, -1, -3}, {4, 0, 0}, {0, 0, -4});
