@@ -32,6 +32,7 @@ struct Arguments {
     bool list = false;
     std::string filter;
     std::size_t every = 1;
+    std::size_t from = 0;
     std::filesystem::path markdown;
     ComparisonOptions comparison;
 };
@@ -39,10 +40,10 @@ struct Arguments {
 /// A room and its place in the matrix.
 using Numbered = std::pair<std::size_t, RoomTraits>;
 
-std::vector<Numbered> rooms_with(const std::string& filter, std::size_t every) {
+std::vector<Numbered> rooms_with(const std::string& filter, std::size_t every, std::size_t from) {
     std::vector<Numbered> result;
     const std::vector<RoomTraits> rooms = all_rooms();
-    for (std::size_t i = 0; i < rooms.size(); i += every)
+    for (std::size_t i = from; i < rooms.size(); i += every)
         if (name_of(rooms[i]).find(filter) != std::string::npos) result.emplace_back(i, rooms[i]);
     return result;
 }
@@ -88,7 +89,7 @@ void write_report(const std::filesystem::path& path, const std::string& report) 
 }
 
 int run(Arguments arguments) {
-    const std::vector<Numbered> rooms = rooms_with(arguments.filter, arguments.every);
+    const std::vector<Numbered> rooms = rooms_with(arguments.filter, arguments.every, arguments.from);
     if (arguments.list) {
         for (const auto& [index, room] : rooms) {
             std::string line = name_of(room) + ":";
@@ -121,6 +122,7 @@ int main(int argc, char** argv) {
     app.add_option("--filter", arguments.filter, "only rooms whose names contain this text");
     app.add_option("--every", arguments.every, "only every Nth room of the matrix, a look at all kinds of them")
         ->check(CLI::Range(1, 1000));
+    app.add_option("--from", arguments.from, "begin with the room of this number");
     app.add_option("--samples", arguments.comparison.samples, "multiply the samples of every image")
         ->check(CLI::Range(1, 1024));
     app.add_option("--out", arguments.comparison.failures, "directory for the images that disagree");

@@ -547,7 +547,8 @@ Names batch_images(const fs::path& output) {
 TEST_F(CommandLine, BatchSkipsWhatIsUpToDate) {
     const std::string one = scene("one");
     (void)scene("two");
-    const std::vector<std::string> batch = {"batch", scenes(), "-o", "out", "--quiet", "--json", "--no-probe"};
+    const std::vector<std::string> batch = {"batch",   scenes(), "-o",         "out",
+                                            "--quiet", "--json", "--no-probe", "--in-process"};
     const auto run_with = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments = batch;
         arguments.insert(arguments.end(), more.begin(), more.end());

@@ -78,11 +78,12 @@ class Continuation : public testing::Test {
 class ContinuationOf : public Continuation, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ContinuationOf, ResumesToTheSameBytes) {
-    constexpr int kSpp = 1500;
+    constexpr int kSpp = 500;
     const Arguments with{"--integrator", GetParam(), "--aov", "direct", "--aov", "variance", "--aov", "denoising"};
     ASSERT_EQ(run(render(kSpp, "whole.exr", with)).exit_code, 0);
     Arguments first = render(kSpp, "a.exr", with);
-    first.insert(first.end(), {"--checkpoint-every", "0.0003"});
+    // On one thread, so that it is long enough to be stopped on many.
+    first.insert(first.end(), {"--checkpoint-every", "0.0003", "--threads", "1"});
     const ProgramResult stopped = run(first, [&](int pid) {
         for (int i = 0; i < 3000 && !fs::exists(work_ / "a.checkpoint"); ++i) sleep_ms(5);
         kill(pid, SIGINT);

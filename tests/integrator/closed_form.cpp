@@ -38,18 +38,26 @@ CosineImage::~CosineImage() {
     std::filesystem::remove(path_, ignored);
 }
 
+World closed_form_world(SceneDesc scene, const std::string& working_space) {
+    scene.settings.film.width = kImageSide;
+    scene.settings.film.height = kImageSide;
+    const ProblemList problems = validate(scene);
+    if (problems.has_errors()) throw SceneError(problems);
+    static const ColorConfig colors = ColorConfig::built_in();
+    const ThreadPool threads(1);
+    ProblemList warnings;
+    return compile_world(std::move(scene), colors, working_space, threads, warnings);
+}
+
 std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integrator, SampleSequence sequence,
                                std::uint32_t spp, std::uint32_t seed, const std::string& working_space,
                                FilterShape filter) {
-    SceneDesc sized = scene;
-    sized.settings.film.width = kImageSide;
-    sized.settings.film.height = kImageSide;
-    const ProblemList problems = validate(sized);
-    if (problems.has_errors()) throw SceneError(problems);
+    return render_pixels(closed_form_world(scene, working_space), integrator, sequence, spp, seed, filter);
+}
 
+std::vector<Rgb> render_pixels(const World& world, const Integrator& integrator, SampleSequence sequence,
+                               std::uint32_t spp, std::uint32_t seed, FilterShape filter) {
     const ThreadPool threads(1);
-    ProblemList warnings;
-    const World world = compile_world(std::move(sized), ColorConfig::built_in(), working_space, threads, warnings);
     RenderOptions options = whole_image(kImageSide, kImageSide, spp, seed);
     options.sequence = sequence;
     options.filter = PixelFilter(filter);

@@ -14,6 +14,7 @@
 #include "integrator/integrator.h"
 #include "sampling/sampler.h"
 #include "scene/scene_desc.h"
+#include "world/world.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -93,6 +94,14 @@ class CosineImage {
 
 /// Side of the images in pixels.
 inline constexpr int kImageSide = 16;
+
+/// Returns the world of `scene`, at the size of the images, in `working_space`.
+[[nodiscard]] World closed_form_world(SceneDesc scene, const std::string& working_space);
+
+/// Renders such a world, pixels in rows.
+[[nodiscard]] std::vector<Rgb> render_pixels(const World& world, const Integrator& integrator, SampleSequence sequence,
+                                             std::uint32_t spp, std::uint32_t seed,
+                                             FilterShape filter = FilterShape::Box);
 
 /// Renders `scene` in `working_space`, pixels in rows.
 [[nodiscard]] std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integrator,

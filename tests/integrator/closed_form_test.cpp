@@ -83,6 +83,7 @@ TEST_P(ClosedForm, RadianceIsTheKnownOne) {
     SceneDesc desc = scene.scene;
     std::optional<CosineImage> image;
     if (scene.environment_axis) desc.environment.image = image.emplace(*scene.environment_axis).path();
+    const World world = closed_form_world(desc, "Linear Rec.709 (sRGB)");
     const bool makes_splats = integrator->makes_splats();
     // Of light paths sixteen times as many: they light the whole scene, and few come by what is seen.
     const std::uint32_t all_spp = GetParam().integrator == "light" ? 16 * scene.spp : scene.spp;
@@ -94,8 +95,7 @@ TEST_P(ClosedForm, RadianceIsTheKnownOne) {
         // Apart from those of the other comparisons.
         const std::uint32_t seed = GetParam().seed + 100'000 * i;
         double sum = 0.0;
-        for (const Rgb& pixel :
-             render_pixels(desc, *integrator, GetParam().sequence, spp, seed, "Linear Rec.709 (sRGB)")) {
+        for (const Rgb& pixel : render_pixels(world, *integrator, GetParam().sequence, spp, seed)) {
             pixels.push_back(static_cast<double>(pixel.g));
             sum += pixels.back();
         }

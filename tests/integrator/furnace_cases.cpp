@@ -54,7 +54,7 @@ std::vector<ClosedFormCase> empty_furnace_cases() {
     const SceneDesc half = furnace(0.5f, 0.5f);
     cases.push_back({"furnace", half, 1.0, 1e-5, {.max_depth = 64}, kAll});
     cases.push_back({"furnace_roulette_at_once", half, 1.0, 1e-5, {.max_depth = 1000, .roulette_depth = 1}, kAll});
-    cases.push_back({"furnace_without_roulette", half, 1.0, 1e-5, {.max_depth = 30, .roulette_depth = 1000}, kAll});
+    cases.push_back({"furnace_without_roulette", half, 1.0, 1e-5, {.max_depth = 30, .roulette_depth = 1000}, kAll, 16});
     cases.push_back({"furnace_bright_walls", furnace(0.1f, 0.9f), 1.0, 1e-5, {.max_depth = 400}, kAll});
     const SceneDesc square = square_furnace(0.5f, 0.5f);
     cases.push_back({"furnace_square", square, 1.0, 1e-5, {.max_depth = 64}, kAll});

@@ -219,11 +219,14 @@ TEST(ShadowCatcher, DarkensTheEnvironmentThatTheCameraSees) {
     for (const char* const integrator : {"path", "bdpt", "whitted"}) {
         const Pixels pixels = render_alone(scene, integrator, 32);
         float brightest = 0.0f;
+        float darkest = 1.0f;
         for (std::size_t i = 0; i < pixels.colors.size(); ++i) {
             EXPECT_EQ(pixels.alphas[i], 1.0) << integrator;
             if (pixels.colors[i].r == pixels.colors[i].b) brightest = std::max(brightest, pixels.colors[i].r);
+            if (pixels.colors[i].r < 1.5f * pixels.colors[i].b) darkest = std::min(darkest, pixels.colors[i].r);
         }
         EXPECT_NEAR(brightest, 0.3f, 0.005f) << integrator << ": the sky, and no ground";
+        EXPECT_LT(darkest, 0.2f) << integrator << ": the shadow";
     }
 }
 

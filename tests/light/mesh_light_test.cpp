@@ -250,8 +250,8 @@ TEST(MeshLight, DirectionsToClosedLampsHaveTheStatedDensity) {
             return s.wi;
         };
         const float front = c.mirrored ? -1.0f : 1.0f;
-        const SamplerCheck check =
-            check_sphere_sampler(sampler, [&](const Vec3f& w) { return density(light, c.point, w, front); });
+        const SamplerCheck check = check_sphere_sampler(
+            sampler, [&](const Vec3f& w) { return density(light, c.point, w, front); }, {.tolerance = 1e-5});
         EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, std::size(cases))) << check.chi2.str();
     }
 }

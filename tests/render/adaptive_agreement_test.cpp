@@ -88,7 +88,7 @@ class AdaptiveAgreement : public testing::TestWithParam<std::string> {
     [[nodiscard]] std::vector<Estimate> reference() const {
         return estimate_blocks(
             [&](std::uint32_t seed) {
-                RenderOptions options = options_for(kAdaptiveWidth, kAdaptiveHeight, 512);
+                RenderOptions options = options_for(kAdaptiveWidth, kAdaptiveHeight, 256);
                 options.seed = seed;
                 return render_now(world_, GetParam().c_str(), options, 2).film.resolve();
             },

@@ -84,7 +84,7 @@ TEST_P(AdaptiveRender, IsTheSameForAnyThreadsAndOrderAndStops) {
     const TemporaryFolder folder;
     const World world = compile(busy_scene(80, 50));
     const auto integrator = make_integrator(GetParam(), {});
-    RenderOptions options = adaptive_options(80, 50, 0.04, 512);
+    RenderOptions options = adaptive_options(80, 50, 0.045, 512);
     options.window = {3, 5, 80, 50};
     const RenderResult whole = render_all(world, GetParam(), options, 1);
     ASSERT_FALSE(whole.adaptive.is_uniform());

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-NO_BROWSER = 2
+NO_BROWSER = 77
 
 
 def main():

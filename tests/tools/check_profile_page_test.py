@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 CHECK = Path(__file__).resolve().parents[2] / "tools/ci/check_profile_page"
-NO_BROWSER = 2
+NO_BROWSER = 77
 
 
 def main():

@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 CHECK = ROOT / "tools/ci/check_report"
-NO_BROWSER = 2
+NO_BROWSER = 77
 
 
 def main():

@@ -162,8 +162,9 @@ World compile(SceneDesc scene, const CompileOptions& options) {
 World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems, const CompileOptions& options) {
     const ProblemList invalid = validate(scene);
     for (const Problem& problem : invalid.all()) EXPECT_NE(problem.severity, Severity::Error) << problem.str();
+    static const ColorConfig colors = ColorConfig::built_in();
     const ThreadPool threads(2);
-    return compile_world(std::move(scene), ColorConfig::built_in(), working_space, threads, problems, options);
+    return compile_world(std::move(scene), colors, working_space, threads, problems, options);
 }
 
 Hit intersect(const World& world, const Ray& ray) {

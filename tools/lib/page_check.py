@@ -32,7 +32,8 @@ def main(description, check, data_name="report.json"):
     arguments = parser.parse_args()
     program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if not program:
-        parser.error("there is no browser; on Debian: apt-get install chromium")
+        print("there is no browser; on Debian: apt-get install chromium", file=sys.stderr)
+        return 77
     page = arguments.directory.resolve() / "index.html"
     data = arguments.directory / data_name
     for file in (page, data):

@@ -86,22 +86,26 @@ INSTANTIATE_TEST_SUITE_P(Rooms, LightLayers, testing::ValuesIn(rooms_of_all_kind
                          [](const auto& each) { return each.param.integrator + "_" + each.param.name; });
 
 /// A room in which the light of some paths is looked at.
-struct Share {
+struct Shares {
     const char* room;
-    const char* expression;
+    std::vector<std::string> expressions;
 };
 
-void PrintTo(const Share& share, std::ostream* out) {
-    *out << share.expression << " in " << share.room;
+void PrintTo(const Shares& shares, std::ostream* out) {
+    *out << shares.room;
 }
 
-constexpr Share kShares[] = {
-    {"LampPlastic", "C <RD> L"},   {"LampPlastic", "C G L"},           {"LampPlastic", "C D D L"},
-    {"LampPlastic", "C D G L"},    {"LampPlastic", "C G .+ L"},        {"LampLayers", "C <RD> L"},
-    {"LampLayers", "C G L"},       {"LampRoughGlass", "C D T+ L"},     {"LampRoughGlass", "C T T D L"},
-    {"LampRoughGlass", "C D R L"}, {"SheetAndLeaf", "C .* <TD> .* L"}, {"CausticCrop", "L S+ D E"},
-    {"SunRoughGlass", "C D .+ L"}, {"VisibleEnvironment", "C D B"},    {"LampPrism", "C D T+ L"},
-};
+std::vector<Shares> all_shares() {
+    return {{"LampPlastic", {"C <RD> L", "C G L", "C D D L", "C D G L", "C G .+ L"}},
+            {"LampLayers", {"C <RD> L", "C G L"}},
+            {"LampRoughGlass", {"C D T+ L", "C T T D L", "C D R L"}},
+            {"SheetAndLeaf", {"C .* <TD> .* L"}},
+            {"CausticCrop", {"L S+ D E"}},
+            {"SunRoughGlass", {"C D .+ L"}},
+            {"VisibleEnvironment", {"C D B"}},
+            {"LampPrism", {"C D T+ L"}}};
+}
+constexpr std::size_t kShareCount = 15;  // expressions of all rooms
 
 /// Who is compared with path tracing.
 constexpr const char* kOthers[] = {"light", "bdpt"};
@@ -112,19 +116,23 @@ constexpr int kSmallestBlock = 8;
 /// Of image means, which blocks as large as the image test, too: only what no noise explains.
 constexpr double kMeanTolerance = 0.1;
 
-class LightLayersAgree : public testing::TestWithParam<Share> {
+class LightLayersAgree : public testing::TestWithParam<Shares> {
   protected:
-    /// The first light layer, seed by seed.
-    [[nodiscard]] static std::vector<ImageF> renders(const World& world, const std::string& integrator,
-                                                     const AgreementCase& room,
-                                                     const std::shared_ptr<const AovSet>& aovs,
-                                                     std::uint32_t first_seed) {
+    /// Returns the light layers, each seed by seed.
+    [[nodiscard]] static std::vector<std::vector<ImageF>> renders(const World& world, const std::string& integrator,
+                                                                  const AgreementCase& room,
+                                                                  const std::vector<std::string>& expressions,
+                                                                  std::uint32_t first_seed) {
         constexpr std::uint32_t kSeeds = 12;
-        std::vector<ImageF> images;
+        const auto aovs = std::make_shared<AovSet>(expression_layers(room, expressions));
+        std::vector<std::vector<ImageF>> images(expressions.size());
         for (std::uint32_t seed = first_seed; seed < first_seed + kSeeds; ++seed) {
-            ImageF image(room.window.width(), room.window.height(), 3);
-            image.pixels = render_layers(world, integrator, room, aovs, seed).film.resolve_light(0);
-            images.push_back(std::move(image));
+            const Film film = render_layers(world, integrator, room, aovs, seed).film;
+            for (std::size_t layer = 0; layer < images.size(); ++layer) {
+                ImageF image(room.window.width(), room.window.height(), 3);
+                image.pixels = film.resolve_light(layer);
+                images[layer].push_back(std::move(image));
+            }
         }
         return images;
     }
@@ -137,31 +145,33 @@ class LightLayersAgree : public testing::TestWithParam<Share> {
 };
 
 TEST_P(LightLayersAgree, WhoeverFindsTheirPaths) {
+    const auto& [room_name, expressions] = GetParam();
     // Half of its samples: these take the longest of all unit tests, and blocks grow until they know their noise.
-    AgreementCase room = agreement_case(GetParam().room);
+    AgreementCase room = agreement_case(room_name);
     room.spp /= 2;
     const World world = agreement_world(room);
-    const auto aovs = std::make_shared<AovSet>(expression_layers(room, {GetParam().expression}));
-    const std::vector<ImageF> first = renders(world, "path", room, aovs, 300);
+    const auto first = renders(world, "path", room, expressions, 300);
     std::uint32_t seed = 400;
     for (const char* name : kOthers) {
-        const std::vector<ImageF> other = renders(world, name, room, aovs, seed);
-        const auto block = testable_block_size(first, kSmallestBlock);
-        const auto other_block = testable_block_size(other, kSmallestBlock);
-        ASSERT_TRUE(block && other_block) << name << ": too little light for a test";
-        const int size = std::max(*block, *other_block);
-        const BlockAgreement result =
-            test_agreement(estimate(first, size), estimate(other, size),
-                           {.block_size = size,
-                            .significance = sidak_level(kFalsePositives, std::size(kOthers) * std::size(kShares)),
-                            .mean_tolerance = kMeanTolerance});
-        EXPECT_TRUE(result.agree()) << name << ": " << result.str();
+        const auto other = renders(world, name, room, expressions, seed);
+        for (std::size_t layer = 0; layer < expressions.size(); ++layer) {
+            const auto block = testable_block_size(first[layer], kSmallestBlock);
+            const auto other_block = testable_block_size(other[layer], kSmallestBlock);
+            ASSERT_TRUE(block && other_block) << name << ", " << expressions[layer] << ": too little light for a test";
+            const int size = std::max(*block, *other_block);
+            const BlockAgreement result =
+                test_agreement(estimate(first[layer], size), estimate(other[layer], size),
+                               {.block_size = size,
+                                .significance = sidak_level(kFalsePositives, std::size(kOthers) * kShareCount),
+                                .mean_tolerance = kMeanTolerance});
+            EXPECT_TRUE(result.agree()) << name << ", " << expressions[layer] << ": " << result.str();
+        }
         seed += 100;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shares, LightLayersAgree, testing::ValuesIn(kShares),
-                         [](const auto& each) { return std::to_string(each.index) + each.param.room; });
+INSTANTIATE_TEST_SUITE_P(Shares, LightLayersAgree, testing::ValuesIn(all_shares()),
+                         [](const auto& each) { return std::string(each.param.room); });
 
 }  // namespace
 
