@@ -342,7 +342,7 @@ BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_name
         if (options.all_variants || options.all_cameras) names = find_names(scene.path);
         if (!options.all_variants) names.variants.clear();
         if (!options.all_cameras) names.cameras.clear();
-        const bool is_sequence = options.overrides.has("/frames") || find_frames(scene.path).has_value();
+        const bool is_sequence = frames_of(scene.path, options.overrides).has_value();
         for (const ScenePart& part : parts_of(scene.path, names)) {
             const fs::path output =
                 options.output / (image_name(options.name_pattern, scene.name, part, is_sequence) + ".exr");

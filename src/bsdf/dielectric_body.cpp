@@ -131,7 +131,7 @@ BsdfSample DielectricBody::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
 }
 
 void DielectricBody::add_deltas(const Vec3f& wo, DeltaList& deltas) const {
-    if (const auto* smooth = std::get_if<SmoothDielectric>(&interface)) {
+    if (const auto* smooth = std::get_if<SmoothDielectric>(&interface); smooth != nullptr && interface_share > 0.0f) {
         DeltaList own;
         smooth->add_deltas(wo, own);
         for (BsdfSample delta : own) {

@@ -1,6 +1,7 @@
 #include "cli/command_help.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <sstream>
 #include <string_view>
 #include <utility>

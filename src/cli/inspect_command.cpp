@@ -10,6 +10,7 @@
 #include "picture/render_setup.h"
 #include "picture/scene_completion.h"
 #include "processor/ray_code.h"
+#include "session/image_job.h"
 #include "session/image_outline.h"
 #include "session/interrupt.h"
 #include "session/scene_render.h"
@@ -94,8 +95,7 @@ Inspection inspect(const std::string& path, const SettingsOverrides& overrides) 
     LoadOptions options = overrides.load_options();
     options.every_animation = true;
     // What a render of the sequence would show first.
-    const std::optional<FrameRange> frames = overrides.has("/frames") ? overrides.frames() : find_frames(path);
-    if (frames) options.frame = frames->frame(0);
+    if (const std::optional<FrameRange> frames = frames_of(path, overrides)) options.frame = frames->frame(0);
     LoadedScene loaded = inspect_scene(path, options);
     SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);

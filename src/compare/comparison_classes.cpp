@@ -3,6 +3,7 @@
 #include "loader/loader.h"
 #include "metrics/pixel_selection.h"
 #include "render/progressive_render.h"
+#include "session/image_job.h"
 #include "session/interrupt.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ AovPlan plan_of_classes(const std::filesystem::path& scene, const VariantRequest
                         std::span<const std::string> classes) {
     if (classes.empty()) return {};
     SettingsOverrides overrides = request.request.overrides;
-    if (find_frames(scene)) overrides.frame = 0;
+    if (frames_of(scene, overrides)) overrides.frame = 0;
     PreparedScene prepared = prepare_scene(scene, overrides);
     prepared.scene.settings.aovs.clear();
     for (const std::string& name : classes)

@@ -6,6 +6,7 @@
 #include "picture/render_setup.h"
 #include "process/shell_word.h"
 #include "processor/ray_code.h"
+#include "session/image_job.h"
 
 #include <algorithm>
 #include <array>
@@ -81,11 +82,10 @@ std::array<int, 2> path_window(const Variant& variant) {
 
 std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span<const VariantRequest> requests,
                                    const ColorConfig& colors, const ThreadPool& threads, bool quiet) {
-    const bool is_sequence = find_frames(scene).has_value();
     std::vector<Variant> variants;
     for (const VariantRequest& request : requests) {
         SettingsOverrides overrides = request.request.overrides;
-        if (is_sequence) overrides.frame = 0;
+        if (frames_of(scene, overrides)) overrides.frame = 0;
         PreparedScene prepared = prepare_scene(scene, overrides);
         const std::string working_space = resolve_colors(prepared.scene.settings, colors);
         Variant variant;

@@ -20,8 +20,8 @@ float centre(int pixel) {
 
 bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& position) {
     const float r = filter.radius();
-    return position.x > centre(window.x0) - r && position.x < centre(window.x1 - 1) + r &&
-           position.y > centre(window.y0) - r && position.y < centre(window.y1 - 1) + r;
+    return position.x >= centre(window.x0) - r && position.x < centre(window.x1 - 1) + r &&
+           position.y >= centre(window.y0) - r && position.y < centre(window.y1 - 1) + r;
 }
 
 void find_reached_pixels(const PixelRect& window, const PixelFilter& filter, const Vec2f& position,

@@ -12,6 +12,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #include "report/json_values.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,13 +44,15 @@ std::filesystem::path frame_path(const std::filesystem::path& output, int frame)
     return output.parent_path() / (stem + output.extension().string());
 }
 
+std::optional<FrameRange> frames_of(const std::filesystem::path& scene, const SettingsOverrides& overrides) {
+    if (overrides.has("/frames")) return overrides.frames();
+    if (overrides.has("/time_code")) return std::nullopt;
+    return find_frames(scene);
+}
+
 std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::filesystem::path& output,
                                  const std::string& name, const SettingsOverrides& overrides) {
-    // A moment that is asked for is one image, whatever frames the scene has.
-    const bool is_moment = overrides.has("/time_code") && !overrides.has("/frames");
-    const std::optional<FrameRange> frames = overrides.has("/frames") ? overrides.frames()
-                                             : is_moment              ? std::nullopt
-                                                                      : find_frames(scene);
+    const std::optional<FrameRange> frames = frames_of(scene, overrides);
     if (!frames) return {{scene, output, name, std::nullopt}};
     std::vector<ImageJob> jobs;
     jobs.reserve(frames->count());

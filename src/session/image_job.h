@@ -41,6 +41,11 @@ struct ImageResult {
 /// extension: shot.exr is shot.0001.exr. A run of more than four '#' asks for as many digits.
 [[nodiscard]] std::filesystem::path frame_path(const std::filesystem::path& output, int frame);
 
+/// Returns the frames of the scene directory or file `scene` that `overrides` or its own settings ask for; none if they
+/// ask for none, or for one moment.
+[[nodiscard]] std::optional<FrameRange> frames_of(const std::filesystem::path& scene,
+                                                  const SettingsOverrides& overrides);
+
 /// The jobs of one scene: `output` itself, or one for each frame that `overrides` or the scene's render.json ask for.
 [[nodiscard]] std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::filesystem::path& output,
                                                const std::string& name, const SettingsOverrides& overrides);

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,6 +28,18 @@ OutputPaths paths_of(const PlannedOutput& planned) {
 void require_all_writable(const OutputPaths& paths) {
     for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
         if (!path.empty()) require_writable(path);
+}
+
+/// Throws UsageError if `statistics` would be the settings of the scene in `directory`.
+void require_no_settings(const std::filesystem::path& statistics, const std::filesystem::path& directory) {
+    const auto or_here = [](const std::filesystem::path& path) { return path.empty() ? "." : path; };
+    std::error_code none;  // a directory may be missing
+    if (statistics.filename() == kSettingsName &&
+        std::filesystem::equivalent(or_here(statistics.parent_path()), or_here(directory), none))
+        throw UsageError(
+            fmt::format("--output: its statistics, {}, would say how the scene is rendered: give the image "
+                        "another name or directory",
+                        statistics.string()));
 }
 
 /// Throws SceneError if the image has the name of another one's layer: of NAME, if it is NAME.LAYER.
@@ -74,9 +88,7 @@ void check_outputs(const PlannedOutput& planned) {
         layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
     require_inputs_kept(fmt::format("--output {}", output.string()), files_of_image(output, layers),
                         planned.scene.inputs);
-    if (!is_partial(output) && paths_of(planned).json.filename() == kSettingsName)
-        throw UsageError(fmt::format("--output '{}': its statistics would be a {}, which says how a scene is rendered",
-                                     output.string(), kSettingsName));
+    if (!is_partial(output)) require_no_settings(paths_of(planned).json, planned.scene.directory);
     if (is_partial(output)) {
         if (intersection(planned.options.window, planned.options.splat_window) != planned.options.window)
             throw SceneError(planned.scene.settings.at("/crop"),

@@ -78,11 +78,10 @@ struct DepartingDensities {
         merged = 0.0;
     }
     /// Returns the densities at a vertex `squared_distance` m² away, >= 0, or 1 where `pdf_forward` is per area, and
-    /// where the direction has the cosine `cos_arriving`. The distance cancels in b, and divides nothing in a: media scatter light again after no distance
-    /// at all.
+    /// where the direction has the cosine `cos_arriving`. The distance cancels in b, and divides nothing in a: media
+    /// scatter light again after no distance at all.
     [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
         const double across = pdf_forward * cos_arriving;
-        // Without a branch, so that compilers do it for many at once.
         const bool arrives = across > 0.0;
         const double inverse = 1.0 / raised(across);
         const double back = raised(cosine);

@@ -74,7 +74,7 @@ std::vector<std::uint32_t> PhotonMap::sort_into_parts(std::vector<std::vector<Ph
     threads.parallel_for(lists.size(), [&](std::size_t list, int) {
         const std::span row = std::span(places).subspan(list * parts, parts);
         for (const Photon& photon : lists[list]) std::construct_at(&photons_[row[part_of(photon)]++], photon);
-        lists[list] = {};
+        std::vector<Photon>().swap(lists[list]);  // frees it
     });
     return begins;
 }

@@ -116,8 +116,8 @@ void LampImageSampler::sample(std::uint32_t first, std::uint32_t end, const HasS
             for (std::uint32_t round = 0; round < image.samples(); ++round) {
                 const SampleKey key{seed, index * image.samples() + round};
                 const Vec2f film = found.point(image, sample_2d(job_->sequence, key, kFilmDimension));
-                const PixelRect around{static_cast<int>(std::ceil(film.x - radius - 0.5f)),
-                                       static_cast<int>(std::ceil(film.y - radius - 0.5f)),
+                const PixelRect around{static_cast<int>(std::floor(film.x - radius - 0.5f)) + 1,
+                                       static_cast<int>(std::floor(film.y - radius - 0.5f)) + 1,
                                        static_cast<int>(std::floor(film.x + radius - 0.5f)) + 1,
                                        static_cast<int>(std::floor(film.y + radius - 0.5f)) + 1};
                 const PixelRect pixels = intersection(around, rect);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -147,7 +148,7 @@ class TouchFinder {
         const double around_a = list_within(a, b.bounds, of_a);
         const double around_b = list_within(b, a.bounds, of_b);
         // To see that bounds are apart takes an eighth of what it takes to look.
-        work_ += (a.triangles + b.triangles) / 8;
+        work_ += (a.triangles + b.triangles) / 8 + 1;
         if (of_a.size() * of_b.size() > kMostPairs) {
             const bool a_is_less = around_a <= around_b;
             for (const BoundedTriangle& t : a_is_less ? of_a : of_b)

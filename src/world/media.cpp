@@ -234,7 +234,7 @@ Rgb Media::transmittance(const Interior& interior, const Ray& ray, RayEnds ends)
         const Crossing crossing = this->crossing(point, current);
         is_bent = is_bent || (!crossing.is_covered && bends_light(crossing.relative_ior(0.0f)));
         go_to(hit.t);
-        if (!crossing.is_covered) passed *= geometry_.straight_share(point, -ray.direction);
+        if (!crossing.is_covered && !is_bent) passed *= geometry_.straight_share(point, -ray.direction);
         current = dot(ray.direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
     });
     go_to(ray.t_max);

@@ -5,6 +5,7 @@
 #include "program/run_program.h"
 #include "program/small_files.h"
 
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <regex>

@@ -6,6 +6,7 @@
 #include "program/small_files.h"
 
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <string>

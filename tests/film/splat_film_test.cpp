@@ -58,12 +58,17 @@ TEST(SplatFilm, ASplatIsSpreadByTheFilter) {
 
 TEST(SplatFilm, ASplatOnTheEdgeOfTwoBoxesFallsIntoOne) {
     const PixelFilter filter(FilterShape::Box);
-    for (const Vec2f& at : {Vec2f{20.0f, 14.5f}, Vec2f{20.5f, 14.0f}, Vec2f{20.0f, 14.0f}}) {
+    for (const Vec2f& at : {Vec2f{20.0f, 14.5f}, Vec2f{20.5f, 14.0f}, Vec2f{20.0f, 14.0f}, Vec2f{0.0f, 0.0f}}) {
         const std::vector<float> image = image_of({{{at, Rgb(1000.0f)}}}, kWhole, filter, 1);
         float sum = 0.0f;
         for (std::size_t i = 0; i < image.size(); i += 4) sum += image[i];
         EXPECT_FLOAT_EQ(sum, float(kWidth * kHeight));
+        // As camera samples do.
+        const auto pixel = static_cast<std::size_t>(at.y) * kWidth + static_cast<std::size_t>(at.x);
+        EXPECT_FLOAT_EQ(image[4 * pixel], float(kWidth * kHeight));
+        EXPECT_TRUE(reaches(kWhole, filter, at));
     }
+    EXPECT_FALSE(reaches(kWhole, filter, {float(kWidth), 3.5f}));
 }
 
 TEST(SplatFilm, ThreadsDoNotChangeABitAndACropIsThePartOfTheWhole) {

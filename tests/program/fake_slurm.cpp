@@ -1,5 +1,6 @@
 #include "program/fake_slurm.h"
 
+#include <cstddef>
 #include <cstdlib>
 #include <sstream>
 

@@ -4,6 +4,7 @@
 #include "process/run_command.h"
 #include "program/small_files.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>

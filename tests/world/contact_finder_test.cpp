@@ -61,16 +61,17 @@ TEST(Contacts, SheetsMoveByWhatRoundingMayBeWhereTheyAre) {
         SceneDesc scene = empty_scene();
         const Handle<MaterialDesc> table = add_material(scene, diffuse(Rgb(0.5f)));
         const Handle<MaterialDesc> glass = add_material(scene, pane);
-        for (const float x : {0.0f, 2000.0f}) {
-            if (x > 0.0f && !has_far_one) continue;
-            add_object(scene, quad({x, 0, 0}, {2, 0, 0}, {0, 0, -2}), table);
-            add_object(scene, quad({x, 0, 0}, {1, 0, 0}, {0, 0, -1}), glass);
+        add_object(scene, quad({0, 1, 0}, {2, 0, 0}, {0, 0, -2}), table);
+        add_object(scene, quad({0, 1, 0}, {1, 0, 0}, {0, 0, -1}), glass);
+        if (has_far_one) {
+            add_object(scene, quad({2000, 1, 0}, {0, 2, 0}, {0, 0, 2}), table);
+            add_object(scene, quad({2000, 1, 0}, {0, 1, 0}, {0, 0, 1}), glass);
         }
         const World world = compile(std::move(scene));
-        return intersect(world, {.origin = {0.1f, 0.5f, 0.1f}, .direction = {0, -1, 0}}).t;
+        return intersect(world, {.origin = {0.1f, 1.5f, 0.1f}, .direction = {0, -1, 0}}).t;
     };
-    EXPECT_NEAR(distance_to_sheet(true), distance_to_sheet(false), 1e-6f);
     EXPECT_LT(distance_to_sheet(false), 0.5f);
+    EXPECT_NEAR(distance_to_sheet(true), distance_to_sheet(false), 1e-5f);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "world/section_ellipse.h"
 
 #include <cmath>
+#include <optional>
 
 namespace etendue {
 

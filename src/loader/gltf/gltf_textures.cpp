@@ -9,6 +9,7 @@
 #include "loader/json_text.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -182,6 +183,8 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
                           fmt::format("{}{}; materials do without it", file_name(source), error.what()));
         return unreadable_image(source.name, image.location);
     }
+    if (!image.path.empty() && std::ranges::find(scene_.inputs, image.path) == scene_.inputs.end())
+        scene_.inputs.push_back(image.path);
     return image;
 }
 
@@ -196,8 +199,6 @@ bool TextureReader::take_pixels(const GltfImage& source, ImageDesc& image) {
         image.encoded = to_bytes(*bytes);
     } else {
         image.path = resolve_uri(document_.directory, source.uri);
-        // Also of a file that cannot be read, which no output may replace.
-        if (std::ranges::find(scene_.inputs, image.path) == scene_.inputs.end()) scene_.inputs.push_back(image.path);
     }
     return true;
 }

@@ -5,6 +5,8 @@
 #include "loader/settings/light_override.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>

@@ -70,7 +70,8 @@ CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim
     const bool has_look_at = object.vector("look_at", view.look_at);
     object.vector("up", view.up);
     object.number("lens_radius", kNotNegative, camera.lens_radius);
-    if (float distance = 0.0f; object.number("focus_distance", kPositive, distance)) said.lens.focus_distance = distance;
+    if (float distance = 0.0f; object.number("focus_distance", kPositive, distance))
+        said.lens.focus_distance = distance;
     view.focuses = !said.lens.focus_distance;
     camera.focus_distance = said.lens.focus_distance.value_or(camera.focus_distance);
     said.view = read_view(object);

@@ -61,7 +61,7 @@ const char* const kGood[] = {
     R"({"scene": "a.glb"})",
     R"({"variant": "winter", "time_code": -0.5, "animation": "walk"})",
     R"({"time_code": 1, "animation": ["walk", "wave"], "scene_name": "Set", "metadata": {"owner": "Me", "comments": "For Jo."}})",
-    R"({"frames": [-3, 999999], "fps": 23.976})",
+    R"({"frames": [-3, 9999], "fps": 23.976})",
     R"({"frames": [1, 48, 2]})",
     R"({"shutter": [-0.01, 0.01]})",
     R"({"integrator": {}})",
