@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -108,6 +108,32 @@ bool moves(const WorldData& data, const Slot& slot) {
     return data.instances[slot.instance].motion != kNone || !data.geometries[slot.geometry].motion.empty();
 }
 
+/// Groups sheets that touch, each with the largest distance at which any of it touches something.
+class SheetGroups {
+  public:
+    void join(std::uint32_t a, std::uint32_t b, double distance) {
+        const std::uint32_t of_a = group(a);
+        const std::uint32_t of_b = group(b);
+        double& own = distances_[of_b];
+        own = std::max({own, distances_[of_a], distance});
+        parents_[of_a] = of_b;
+    }
+    [[nodiscard]] double distance(std::uint32_t sheet) { return distances_[group(sheet)]; }
+
+  private:
+    [[nodiscard]] std::uint32_t group(std::uint32_t sheet) {
+        for (;;) {
+            std::uint32_t& parent = parents_.try_emplace(sheet, sheet).first->second;
+            if (parent == sheet) return sheet;
+            parent = parents_.at(parent);  // so that the way is shorter next time
+            sheet = parent;
+        }
+    }
+
+    std::unordered_map<std::uint32_t, std::uint32_t> parents_;
+    std::unordered_map<std::uint32_t, double> distances_;
+};
+
 /// Moves thin sheets that touch something by a few times what rounding may: in front of what stops light, out of
 /// bodies, behind lamps, and one before the other. True if any was moved.
 bool move_sheets_apart(const Touches& touches, WorldData& data) {
@@ -119,19 +145,11 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
     for (const auto& [pair, touch] : touches.pairs)
         for (const auto& [sheet, other] : {pair, std::pair(pair.second, pair.first)})
             if (is_sheet(material(sheet))) partners[sheet].emplace_back(other, touch);
-    // Sheets that touch come to share the largest distance of theirs, and no others: rounding moves more far away.
-    std::map<std::uint32_t, double> distances;
-    for (bool grows = true; grows;) {
-        grows = false;
-        for (const auto& [sheet, touching] : partners)
-            for (const auto& [other, touch] : touching) {
-                const auto of_other = distances.find(other);
-                const double most = std::max(touch.distance, of_other == distances.end() ? 0.0 : of_other->second);
-                double& own = distances[sheet];
-                grows = grows || most > own;
-                own = std::max(own, most);
-            }
-    }
+    // Sheets that touch share the largest distance of theirs, and no others: rounding moves more far away.
+    SheetGroups groups;
+    for (const auto& [sheet, touching] : partners)
+        for (const auto& [other, touch] : touching)
+            groups.join(sheet, partners.contains(other) ? other : sheet, touch.distance);
     std::map<std::uint32_t, int> steps;  // along their normals
     for (const auto& [sheet, touching] : partners) {
         int way = 1;
@@ -154,7 +172,7 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
     bool any = false;
     for (const auto& [sheet, step] : steps) {
         if (step == 0) continue;
-        move_along_normals(slots[sheet], static_cast<float>(2.0 * distances[sheet] * step), data);
+        move_along_normals(slots[sheet], static_cast<float>(2.0 * groups.distance(sheet) * step), data);
         any = true;
     }
     return any;
