@@ -37,9 +37,7 @@ struct RenderCounters {
 
   private:
     void keep(const DroppedSample& sample) {
-        const auto order = [](const DroppedSample& dropped) {
-            return std::tuple(dropped.sample, dropped.y, dropped.x);
-        };
+        const auto order = [](const DroppedSample& each) { return std::tuple(each.sample, each.y, each.x); };
         const auto place = std::ranges::upper_bound(first_dropped, order(sample), {}, order);
         first_dropped.insert(place, sample);
         if (first_dropped.size() > kMaxLocated) first_dropped.pop_back();
