@@ -51,10 +51,10 @@ inline constexpr std::array kSampleSettings{
             .option = "--error",
             .type = RealNumber{kNotNegative},
             .decides = Decides::End,
-            .help = "Start no new pass once the image's estimated relative error is at most this: 0.05 is a clean "
-                    "preview, 0.01 a clean image, 0 sets no limit. It is a root mean square; values below half of "
-                    "the image's own scale are measured against that half. Pixels get as many samples as they need, "
-                    "`--spp` at most. This doubles the memory of the film",
+            .help = "Start no new pass once the image's estimated relative error is at most this. 0.05 is a clean "
+                    "preview, 0.01 a clean image, 0 sets no limit. It is a root mean square. Values below half of the "
+                    "image's own scale are measured against that half. Pixels get the samples they need, `--spp` at "
+                    "most. The film takes twice the memory",
             .page = "adaptive.md#what-the-error-is-relative-to",
             .place = at([](auto& s) -> auto& { return s.relative_error; })},
     Setting{.pointer = "/clamp_indirect",

@@ -79,9 +79,8 @@ inline constexpr std::array kSceneSettings{
             .option = "--accelerator",
             .type = kChoiceOf<kAcceleratorNames>,
             .decides = Decides::Samples,
-            .help =
-                "What finds the surfaces that rays meet; all but `embree` are for teaching, many times as slow, and "
-                "refuse scenes in which something moves while the shutter is open or back faces are culled",
+            .help = "Structure that finds what rays meet. All but `embree` are for teaching: they are many times as "
+                    "slow, and refuse motion blur and culled back faces",
             .page = "accelerators.md",
             .place = named_at<kAcceleratorNames>([](auto& s) -> auto& { return s.accelerator; })},
     Setting{.pointer = "/cull_backfaces",
@@ -145,8 +144,9 @@ inline constexpr std::array kAnimationSettings{
                                  true},
             .decides = Decides::Schedule,
             .default_text = "one image",
-            .help = "Render a sequence, from its first frame to its last, and of these every step-th; frame f is at "
-                    "time code + f / fps",
+            .help =
+                "Render a sequence from its first frame to its last, every step-th of them. Frame f is at time code "
+                "+ f / fps",
             .page = "render-json.md#sequences",
             .place = at([](auto& s) -> auto& { return s.frames; })},
     Setting{.pointer = "/fps",

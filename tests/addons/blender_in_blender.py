@@ -107,9 +107,9 @@ def draw_all():
         context = SimpleNamespace(scene=bpy.context.scene, view_layer=bpy.context.view_layer, object=bpy.context.object,
                                   world=world, light=bpy.data.lights["L"], camera=camera, engine="ETENDUE")
         for panel in own.CLASSES:
-            stub = type("Stub", (own.RenderPanel,), {"layout": Layout()})()
+            drawn = type("Drawn", (own.RenderPanel,), {"layout": Layout()})()
             assert isinstance(panel.poll.__func__(panel, context), bool), panel
-            panel.draw(stub, context)
+            panel.draw(drawn, context)
 
 
 def panels(answer):
