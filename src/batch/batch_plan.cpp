@@ -41,7 +41,7 @@ void describe_unfinished(PlannedUnit& unit, const OutputPaths& output, const Sta
         unit.reason = "was not tried last time, as its scene was invalid";
     if (!CheckpointFiles(unit.task.job.output).exist()) return;
     if (unit.reason == "never rendered") unit.reason = "was interrupted";
-    // Statistics that are older than the checkpoint tell of an interrupted render before it: `render` compares.
+    // Statistics older than the checkpoint describe an earlier render, so `render` itself compares the settings.
     const bool is_described = !CheckpointFiles(unit.task.job.output).are_newer_than(output.json);
     const std::string changed = is_described ? changes_since_checkpoint(unit, output, options) : "";
     unit.resumes = changed.empty();

@@ -1,7 +1,7 @@
-// glTF's material with its upper layers: a clear coat over a sheen over the base. With the share t(w) that passes them
-// along w, t_avg on average, the base's diffuse part is scaled by t(o) t(i) / t_avg (by t(o) t(i) where it is not from
-// the outside to the outside of a body), what a mirror reflects by
-// min(t(o), t(i)); what a rough base scatters lies between, by `diffuseness` (docs/derivations.md, equation 21).
+// glTF's material with its upper layers: a clear coat over a sheen over the base. The layers pass a share t(w) along w,
+// t_avg on average. The base's diffuse part is scaled by t(o) t(i) / t_avg from the outside of a body to its outside,
+// and by t(o) t(i) otherwise. A mirror is scaled by min(t(o), t(i)); a rough base lies between the two, by
+// `diffuseness` (docs/derivations.md, equation 21).
 //
 // A white surface in a white furnace reflects between 0.99 and 1 under one layer if its base is a dielectric, 0.975
 // under both; metals lose up to 3.6% under a coat, 4.6% under a white sheen, 7% under both, panes 5%. On refracting

@@ -113,7 +113,7 @@ BsdfSample MetallicRoughness::sample(const Vec3f& wo, float u_lobe, Vec2f u, Tra
         if (u_lobe >= end_diffuse) wi.z = -wi.z;
     } else {
         const bool transmit = u_lobe < end_transmitted;
-        // Rounding of the sums may leave a number over where nothing is reflected.
+        // Rounding of the sums may select reflection although its probability is zero.
         if (!transmit && layers.p_specular == 0.0f) return {};
         if (layers.smooth) return sample_smooth(layers, wo, transmit);
         const float first = transmit ? end_diffuse_below : end_transmitted;

@@ -25,7 +25,7 @@ std::vector<std::string> choices_of(const std::string& type) {
 }
 
 OptionHelp::Value value_of(const CLI::Option& option, const std::vector<std::string>& choices) {
-    // The type of a flag has a size in CLI11, too.
+    // CLI11 gives flags a type, too: only the number of values tells them from options.
     if (option.get_items_expected_max() == 0) return OptionHelp::Value::None;
     if (!choices.empty()) return OptionHelp::Value::Choice;
     const std::string type = option.get_type_name();

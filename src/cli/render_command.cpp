@@ -102,7 +102,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
         try {
             result = run_job(jobs[i], std::move(request), threads);
         } catch (const RefusedCheckpoint& error) {
-            // The frames behind it may well go on.
+            // Later frames of the sequence may still be able to resume.
             if (!is_sequence) throw;
             has_refused = true;
             result.error = error.what();

@@ -102,7 +102,7 @@ std::vector<Measure> MeasuredPair::measure(const std::vector<std::string>& names
             measures.push_back({name, mean_of(map, selection()), describe_ldr_flip(ppd)});
         }
         if (measures.size() == 1) {
-            // What is left out may have got something of its neighbours, by the filters of a metric.
+            // A metric's filter may have spread error from its neighbours into a pixel that is left out.
             map_ = std::move(map);
             blank(map_, left_out_);
         }

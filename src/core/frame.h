@@ -29,7 +29,7 @@ struct BasicFrame {
     }
 
     /// The frame around the unit normal `n` whose tangent is `t`, of any length, made orthogonal to `n`; any frame if
-    /// they are parallel. Of single vectors only.
+    /// they are parallel. Takes single vectors, not lanes.
     [[nodiscard]] static BasicFrame from_normal_and_tangent(const Vec& n, const Vec& t) {
         const T size = max_abs(t);
         if (!(size > T(0.0f))) return from_normal(n);

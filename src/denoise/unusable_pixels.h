@@ -18,12 +18,11 @@ inline constexpr int kFillRadius = 8;
 /// replaced.
 std::size_t fill_unusable(Planes& whole, Planes& one_half);
 
-/// Layers of depth hold this where there is nothing, metres.
+/// The depth, in metres, that a layer holds where the ray met nothing.
 inline constexpr float kNothingThere = 1e10f;
 
-/// Brings what is kNothingThere away or farther, in `whole` and in `one_half`, to a tenth beyond the largest value of
-/// `whole` that is not: else the background would make all other differences of a feature look like none. Each plane
-/// has a largest value of its own; where nothing is nearer, all becomes 0.
+/// Moves the background of `whole` and `one_half` (values of kNothingThere and more) to 1.1 times the plane's largest
+/// other value in `whole`, so that the plane's own differences stay visible. A plane that is all background becomes 0.
 void bring_background_near(Planes& whole, Planes& one_half);
 
 }  // namespace etendue

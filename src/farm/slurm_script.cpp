@@ -16,7 +16,7 @@ namespace {
 /// Times that a task is started again because its time was up; more than that is a loop.
 constexpr int kMostRestarts = 20;
 
-/// Seconds before the end of its time at which a task is told so; at least the first half of its time is for its work.
+/// Returns how many seconds before its time limit Slurm warns a task: at most half of the limit.
 int warning_seconds_of(const TaskNeeds& needs) {
     return std::max(kLeastWarningSeconds, std::min(needs.warning_seconds, needs.minutes * 60 / 2));
 }

@@ -86,7 +86,7 @@ double image_scale(const Film& film, const ThreadPool& threads) {
             blocks[row * columns + column] = sum / (3.0 * static_cast<double>(block.area()));
         }
     });
-    // Filters with negative parts make negative ones.
+    // A filter with negative lobes can make a block's mean negative.
     std::erase_if(blocks, [](double mean) { return !(mean > 0.0); });
     if (blocks.empty()) return 0.0;
     // Roots of numbers near 1, so that they are the same whatever power of two the light is multiplied by.

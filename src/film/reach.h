@@ -6,9 +6,9 @@
 
 namespace etendue {
 
-/// Pixels [begin, end) within [low, high) whose centres lie beyond `position` - `radius`, and up to `position` +
-/// `radius`: a place on the edge of two boxes is in the one that begins there. `position` must not be far beyond what
-/// an int holds.
+/// Holds the pixels [begin, end) within [low, high) whose centres lie in (`position` - `radius`, `position` +
+/// `radius`]: a position on the edge of two boxes belongs to the box that begins there. `position` must be near the
+/// range of int.
 struct Reach {
     int begin;
     int end;

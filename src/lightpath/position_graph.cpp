@@ -58,7 +58,7 @@ class Builder {
         for (const std::size_t p : from) {
             std::vector<std::size_t>& following = graph_.positions[p].following;
             append(following, to);
-            // Repetitions of repetitions say the same again and again.
+            // Nested repetitions add the same positions many times.
             if (following.size() > 2 * kMostPositions) make_unique(following);
         }
     }

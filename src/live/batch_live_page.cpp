@@ -52,7 +52,7 @@ void BatchLivePage::show(const BatchReport& report) {
                               {"phase", is_ended ? (report.interrupted ? "stopped" : "finished") : running},
                               {"version", version},
                               {"images", nlohmann::json::array()}};
-    // Put in as it is: of ten thousand units it is megabytes, which need not be read and written once more.
+    // The report is inserted as text: for ten thousand units, parsing it again would cost megabytes of JSON.
     std::string text = text_of(json);
     text.back() = ',';
     text += R"("report":)" + to_json(report) + "}";

@@ -160,7 +160,7 @@ void Explorer::move_camera(const std::string& place, bool moves) {
     rounded.give("--camera-place", text_of_place(*settings.camera_place));
     rounded.apply(settings);
     const std::scoped_lock lock(mutex_);
-    // At once, so that a page that has moved it is never told of an older place.
+    // The camera is stored before the render restarts, so that the page that moved it never receives an older place.
     scene_.settings.camera_place = settings.camera_place;
     wishes_.camera = settings.camera_place;
     moved_at_ = moves ? Clock::now() : Clock::time_point{};

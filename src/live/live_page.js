@@ -164,7 +164,7 @@ function pan(dx, dy) {
 
 let drag = null;
 canvas.addEventListener("pointerdown", (event) => {
-  // The middle and the right button have a meaning only where there is a camera: they pan.
+  // The middle and right buttons pan, so they do nothing where there is no camera to move.
   if (event.button > (camera.pose ? 2 : 0)) return;
   canvas.setPointerCapture(event.pointerId);
   drag = { at: place(event), pans: event.button !== 0 || event.shiftKey, moves: false };

@@ -163,7 +163,7 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
                               : path;
     if (settings && !is_directory && is_for_another_file(*settings, scene.directory, scene.file)) {
         problems.note(settings->location, fmt::format("ignored: it is for '{}'", settings->scene));
-        // It is not read, and yet no output may take its place.
+        // The ignored file is still listed as an input, so that no output replaces it.
         if (!settings->file.empty()) scene.inputs.push_back(settings->file);
         settings = read_given_settings(options.settings, problems);
     }

@@ -168,7 +168,7 @@ LayeredImage read_layers(const EncodedImage& encoded) {
     try {
         require_all_parts(image);
     } catch (const IoError& error) {
-        // Those behind it cannot be reached.
+        // Parts after the first unreadable one cannot be reached.
         result.layers.push_back({.name = "rest", .part = image.part, .problem = error.what()});
     }
     if (names.size() > 1)

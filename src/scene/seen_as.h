@@ -1,4 +1,4 @@
-// What the camera sees in the place of a surface.
+// The ways in which the camera sees a surface: as it is, as the shadow on it, or as a hole.
 #pragma once
 
 #include <cstdint>

@@ -41,7 +41,7 @@ void install_interrupt_handlers() {
     // A terminal that is closed sends it, maybe twice; who is to outlive the terminal (nohup) ignores it.
     if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGUSR1, on_preview_signal);
-    // A parent that ignores it hands that down: no end of a child would ever be told.
+    // A parent that ignores SIGCHLD passes that on, and then no child could be waited for.
     std::signal(SIGCHLD, SIG_DFL);
     // A file that would pass the limit of file sizes (ulimit -f) is an error of writing, which says so.
     std::signal(SIGXFSZ, SIG_IGN);

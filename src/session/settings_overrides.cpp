@@ -109,7 +109,7 @@ void SettingsOverrides::apply_environment(SceneDesc& scene) const {
     if (has("/studio")) throw SceneError({"--environment", {}}, "--studio puts another light in its place: give one");
     if (scene.settings.studio || *environment == kNoEnvironment) scene.settings.studio = false;
     if (const auto file = environment_file()) {
-        // What the scene says of its own image says nothing about this one, but for where its middle is to be.
+        // Only the rotation of the scene's own environment applies to the new image.
         const auto rotation = scene.environment.rotation;
         scene.environment = {};
         scene.environment.enabled = true;

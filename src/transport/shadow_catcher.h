@@ -1,5 +1,4 @@
-// What the camera sees in the place of a surface: of a shadow catcher how much light is taken from it, of a holdout
-// nothing.
+// Shadow catchers and holdouts: the camera sees the shadow on the one, and nothing of the other.
 #pragma once
 
 #include "sampling/sampler.h"

@@ -145,7 +145,7 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
     for (const auto& [pair, touch] : touches.pairs)
         for (const auto& [sheet, other] : {pair, std::pair(pair.second, pair.first)})
             if (is_sheet(material(sheet))) partners[sheet].emplace_back(other, touch);
-    // Sheets that touch share the largest distance of theirs, and no others: rounding moves more far away.
+    // Sheets that touch share the largest distance in their group, since rounding grows with distance from the origin.
     SheetGroups groups;
     for (const auto& [sheet, touching] : partners)
         for (const auto& [other, touch] : touching)
@@ -241,7 +241,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
     for (const auto& [pair, touch] : touches.pairs)
         for (const std::uint32_t slot : {pair.first, pair.second}) {
             contacts[slot].reach = std::max(contacts[slot].reach, static_cast<float>(touch.distance));
-            // Where one of both moves, they touch in other places at other times.
+            // If one of the two moves, they touch in different places at different times.
             if (moves(data, slots[pair.first]) || moves(data, slots[pair.second]))
                 contacts[slot].is_anywhere = true;
             else

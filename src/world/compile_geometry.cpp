@@ -20,7 +20,7 @@ Geometry take_geometry(PrimitiveDesc& primitive) {
     geometry.tangents = std::move(primitive.tangents);
     geometry.uv0 = std::move(primitive.uv0);
     geometry.uv1 = std::move(primitive.uv1);
-    // White changes nothing.
+    // Colours that are all white multiply by one, so they are not stored.
     if (std::ranges::any_of(primitive.colors, [](const Vec4f& color) { return color != Vec4f(1.0f); }))
         geometry.colors = std::move(primitive.colors);
     geometry.triangles = std::move(primitive.triangles);

@@ -41,7 +41,7 @@ class TouchFinder {
         std::sort(queries_.begin(), queries_.end());
         queries_.erase(std::unique(queries_.begin(), queries_.end()), queries_.end());
         const std::vector<Query>& queries = queries_;
-        // What threads find depends on them once there is too much to look at: then it is not used.
+        // Once the work limit is passed, what the threads have found depends on their order, so it is discarded.
         const Touches certain = found_;
         const std::size_t chunk_size = std::clamp<std::size_t>(queries.size() / 256, 1, 64);
         threads.parallel_for((queries.size() + chunk_size - 1) / chunk_size, [&](std::size_t chunk, int) {
@@ -120,7 +120,7 @@ class TouchFinder {
         for (const PlacedSurface& a : surfaces_) {
             if (!a.matters) continue;
             if (is_crowd) {
-                // Each triangle takes a visit at least.
+                // Each triangle costs at least one visit.
                 if (queries_.size() + a.triangles > most_work_) {
                     work_ = most_work_;
                     queries_.clear();
@@ -147,7 +147,7 @@ class TouchFinder {
         std::vector<BoundedTriangle> of_b;
         const double around_a = list_within(a, b.bounds, of_a);
         const double around_b = list_within(b, a.bounds, of_b);
-        // To see that bounds are apart takes an eighth of what it takes to look.
+        // Rejecting a triangle by its bounds costs an eighth of a visit.
         work_ += (a.triangles + b.triangles) / 8 + 1;
         if (of_a.size() * of_b.size() > kMostPairs) {
             const bool a_is_less = around_a <= around_b;

@@ -166,7 +166,7 @@ Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const 
     lobe.alpha_x = widened_alpha(lobe.alpha_x, point.slope_variance.x);
     lobe.alpha_y = widened_alpha(lobe.alpha_y, point.slope_variance.y);
 
-    // Where a texture says that nothing is refracted, light that was refracted elsewhere may pass diffusely.
+    // Where a texture forbids refraction, light that entered the body elsewhere may still leave diffusely.
     const bool passes_diffusely = model.transmission > 0.0f && lobe.diffuse_transmission > 0.0f;
     const bool refracts = model.refracts && lobe.metallic < 1.0f && (lobe.transmission > 0.0f || passes_diffusely);
     DielectricBody body;

@@ -9,5 +9,5 @@ def main(name):
     if not result.wasSuccessful():
         sys.exit(1)
     if result.skipped:
-        # As GTEST_SKIP() says it. CTest takes no notice of failures beside it.
+        # CTest counts this wording of GTEST_SKIP() as a skip even beside failures, so failures exit first.
         print(f"{name}: Skipped", *sorted({reason for _, reason in result.skipped}), sep="\n")

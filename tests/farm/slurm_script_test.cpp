@@ -75,7 +75,7 @@ TEST(SlurmScript, OnlyTimesThatWereUpAreCounted) {
     const FakeSlurm slurm(folder / "slurm");
     slurm.set_queue("RUNNING");
     JobArray array = kArray;
-    // What Slurm tells the shell; and a task that SIGTERM ends.
+    // The task sends its shell the signal that Slurm sends before the time limit, and then waits for SIGTERM.
     array.commands = {"sleep 0.2; kill -USR2 $$; exec sleep 60"};
     write_file(folder / "render-3.sh", slurm_script(array, "n", {.threads = 1, .max_running = 0, .options = {}}));
     write_file(folder / "render-3.tasks", array.commands[0] + "\n");

@@ -63,7 +63,7 @@ TEST(SplatFilm, ASplatOnTheEdgeOfTwoBoxesFallsIntoOne) {
         float sum = 0.0f;
         for (std::size_t i = 0; i < image.size(); i += 4) sum += image[i];
         EXPECT_FLOAT_EQ(sum, float(kWidth * kHeight));
-        // As camera samples do.
+        // Camera samples fill the pixel they fall into in the same way.
         const auto pixel = static_cast<std::size_t>(at.y) * kWidth + static_cast<std::size_t>(at.x);
         EXPECT_FLOAT_EQ(image[4 * pixel], float(kWidth * kHeight));
         EXPECT_TRUE(reaches(kWhole, filter, at));

@@ -325,8 +325,8 @@ double mean_alpha(const Pixels& pixels) {
     return std::accumulate(pixels.alphas.begin(), pixels.alphas.end(), 0.0) / double(pixels.alphas.size());
 }
 
-// A quarter of the light on the ground behind comes to the eye: half of the sun's, of which half passes once more.
-// Roulette makes single samples others: five deviations.
+// A quarter of the sun's light on the ground reaches the eye: the air passes half of it on each of two ways.
+// Roulette makes single samples vary, so the bound is five standard deviations.
 TEST(ShadowCatcher, IsInTheShadowOfAirAndBehindIt) {
     MaterialDesc hole = diffuse(Rgb(kGroundAlbedo));
     hole.seen_as = SeenAs::Hole;
@@ -337,7 +337,7 @@ TEST(ShadowCatcher, IsInTheShadowOfAirAndBehindIt) {
     }
 }
 
-// Without a ground, air and panes take of the plate what they take of light.
+// Without a ground, air and panes dim the background plate as they dim light.
 TEST(Alpha, IsWhatClearSurfacesTakeOfTheBackground) {
     SceneDesc scene = ground_below_tinted_air(diffuse(Rgb(kGroundAlbedo)));
     scene.instances.pop_back();

@@ -18,7 +18,7 @@ def main():
             subprocess.run([sample_batch, directory, *units], check=True)
             status = subprocess.run([sys.executable, "-B", CHECK, directory, "--no-screenshots"], check=False).returncode
         if status == NO_BROWSER:
-            # As GTEST_SKIP() says it, so that tools/test lists it.
+            # tools/test lists skips that are worded as GTEST_SKIP() words them.
             print("check_batch_page_test: Skipped\nthere is no browser")
             return 0
         if status != 0:

@@ -14,7 +14,7 @@ def main():
     check = [sys.executable, "-B", ROOT / "tools/ci/check_live_page", sys.argv[1], ROOT / "scenes/cornell-box"]
     status = subprocess.run(check, check=False).returncode
     if status == NO_BROWSER:
-        # As GTEST_SKIP() says it, so that tools/test lists it.
+        # tools/test lists skips that are worded as GTEST_SKIP() words them.
         print("check_live_page_test: Skipped\nthere is no browser")
         return 0
     return status

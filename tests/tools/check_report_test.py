@@ -20,7 +20,7 @@ def main():
                         "--quiet", "-o", report], check=True)
         status = subprocess.run([sys.executable, "-B", CHECK, report, "--no-screenshots"], check=False).returncode
     if status == NO_BROWSER:
-        # As GTEST_SKIP() says it, so that tools/test lists it.
+        # tools/test lists skips that are worded as GTEST_SKIP() words them.
         print("check_report_test: Skipped\nthere is no browser")
         return 0
     return status

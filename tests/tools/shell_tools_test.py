@@ -46,7 +46,7 @@ class ContinuousIntegration(ShellTools):
         super().setUp()
         for name in ("bin/cmake", "tools/dev/check", "tools/test", "tools/ci/test-slurm"):
             self.program(name, "exit 0")
-        # As git in a checkout that belongs to somebody else.
+        # git refuses a checkout that belongs to another user in this way.
         self.program("bin/git", "case \"$*\" in *safe.directory=\\**) exit 0 ;; esac\nexit 128")
 
     def test_steps_go_on_behind_a_build_that_fails(self):

@@ -206,6 +206,6 @@ if __name__ == "__main__":
         PROGRAM = Path(sys.argv.pop(1)).resolve()
     result = unittest.main(verbosity=2, exit=False).result
     if result.wasSuccessful() and result.skipped:
-        # As GTEST_SKIP() says it, so that tools/test lists it.
+        # tools/test lists skips that are worded as GTEST_SKIP() words them.
         print("torture_test: Skipped", *sorted({reason for _, reason in result.skipped}), sep="\n")
     sys.exit(not result.wasSuccessful())

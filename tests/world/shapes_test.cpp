@@ -147,7 +147,7 @@ TEST(Shapes, NeverMeetTheRaysThatLeaveThem) {
                     const ShapeKind kind = kind_of(scene, hit.instance);
                     ASSERT_FALSE(is_flat(kind));
                     ASSERT_LT(dot(next.direction, point.geometric_normal), 0.0f);
-                    // It leaves there, and does not enter where it began.
+                    // The path leaves the shape there instead of meeting its own start again.
                     const SurfacePoint end = world.geometry().surface_point(other);
                     ASSERT_GT(dot(next.direction, end.geometric_normal), 0.0f);
                 }

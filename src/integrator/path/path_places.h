@@ -49,7 +49,7 @@ class PathPlaces {
     [[nodiscard]] std::size_t bytes() const { return lookups_.bytes(); }
 
   private:
-    /// Has path `i` of the wave, which has met a surface that the camera does not see, go on to what lies behind the
+    /// Sends path `i` of the wave, which has met a surface that the camera does not see, to the background behind the
     /// whole scene.
     void replace_surface(const PathContext& context, std::size_t i);
     /// Finds out where path `k` is, which is on a surface that is not plain; false if the surface ends the path or lets

@@ -158,7 +158,7 @@ class Placer {
     [[nodiscard]] bool allocate_places(std::size_t count, const tinygltf::Node& node, Handle<MeshDesc> mesh,
                                        const SourceLocation& where) {
         const std::size_t primitives = scene_.meshes[static_cast<std::size_t>(mesh.index)].primitives.size();
-        // A name is as long as the file's writer likes, and every place has it.
+        // Every place copies the name, and a file may make names of any length.
         const std::uint64_t name =
             std::max(node.name.size(), scene_.meshes[static_cast<std::size_t>(mesh.index)].name.size());
         return accessors_.allocate(count, kBytesOfPlace + name + kBytesOfPlacedPrimitive * primitives, where);

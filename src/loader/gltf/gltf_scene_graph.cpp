@@ -18,7 +18,7 @@ class Ancestors {
         : listed_(listed), parents_(parents), is_below_(parents.size()) {}
 
     [[nodiscard]] bool has_listed(int node) {
-        // Up to what is known already, so that a chain is climbed once.
+        // The walk stops at the first ancestor whose answer is known, so that each chain is climbed once.
         std::vector<std::size_t> climbed;
         bool found = false;
         for (auto at = static_cast<std::size_t>(node);;) {

@@ -39,7 +39,7 @@ class ProfileFiles {
     Handle<IesProfileDesc> read(const std::string& name, const SourceLocation& where, Severity severity) {
         try {
             const std::filesystem::path file = resolve_name(scene_.directory, name);
-            // It may have several names: "a.ies" and "./a.ies".
+            // One file may be named in several ways: "a.ies" and "./a.ies".
             if (const auto known = by_file_.find(file.string()); known != by_file_.end()) return known->second;
             const std::vector<unsigned char> bytes = read_bytes(file, kMaxIesBytes);
             scene_.ies_profiles.push_back(
