@@ -29,13 +29,13 @@ int rounded_up(int value, int multiple) {
 WindowWeights::WindowWeights(const NlMeansSettings& settings)
     : settings_(settings),
       row_stride_(rounded_up(2 * settings.radius + 1, kRowMultiple)),
-      weights_(static_cast<std::size_t>(rows() * row_stride_) * kDenoiseTileSide * kDenoiseTileSide),
+      weights_(window_size() * kDenoiseTileSide * kDenoiseTileSide),
       distances_(std::size_t{kPaddedTile} * kPaddedTile),
       row_sums_(std::size_t{kPaddedTile} * kPaddedTile) {}
 
-const float* WindowWeights::window(int x, int y) const {
-    const auto pixel = static_cast<std::size_t>((y - tile_.y0) * kDenoiseTileSide + (x - tile_.x0));
-    return weights_.data() + pixel * static_cast<std::size_t>(rows() * row_stride_);
+std::span<const float> WindowWeights::window(int x, int y) const {
+    const int pixel = (y - tile_.y0) * kDenoiseTileSide + (x - tile_.x0);
+    return std::span(weights_).subspan(static_cast<std::size_t>(pixel) * window_size(), window_size());
 }
 
 void WindowWeights::compute(const NlMeansGuide& guide, const PixelRect& tile) {
@@ -82,8 +82,7 @@ void WindowWeights::compute_offset(const NlMeansGuide& guide, int dx, int dy) {
     }
     const auto terms = static_cast<float>((2 * patch + 1) * (2 * patch + 1) * guide.image.count());
     const PixelRect image{0, 0, guide.image.width(), guide.image.height()};
-    const auto window_size = static_cast<std::size_t>(rows() * row_stride_);
-    const auto place = static_cast<std::size_t>((dy + settings_.radius) * row_stride_ + dx + settings_.radius);
+    const int place = (dy + settings_.radius) * row_stride_ + dx + settings_.radius;
     std::array<float, kDenoiseTileSide> sums;
     for (int y = 0; y < tile_.height(); ++y) {
         sums.fill(0.0f);
@@ -92,8 +91,8 @@ void WindowWeights::compute_offset(const NlMeansGuide& guide, int dx, int dy) {
             for (int x = 0; x < tile_.width(); ++x) sums[static_cast<std::size_t>(x)] += row[x];
         }
         const bool row_inside = tile_.y0 + y + dy >= image.y0 && tile_.y0 + y + dy < image.y1;
-        float* weight = weights_.data() + static_cast<std::size_t>(y * kDenoiseTileSide) * window_size + place;
-        for (int x = 0; x < tile_.width(); ++x, weight += window_size) {
+        float* weight = weights_.data() + static_cast<std::size_t>(y) * kDenoiseTileSide * window_size() + place;
+        for (int x = 0; x < tile_.width(); ++x, weight += window_size()) {
             const int qx = tile_.x0 + x + dx;
             const float distance = std::max(0.0f, sums[static_cast<std::size_t>(x)] / terms);
             const bool counts = row_inside && qx >= image.x0 && qx < image.x1 && distance < kNoWeight;
@@ -123,7 +122,7 @@ Planes nl_means(const Planes& target, const NlMeansGuide& guide, const NlMeansSe
         for (int y = tile.y0; y < tile.y1; ++y) {
             for (int x = tile.x0; x < tile.x1; ++x) {
                 for (int plane = 0; plane < target.count(); ++plane) {
-                    const float* window = weights->window(x, y);
+                    const float* window = weights->window(x, y).data();
                     float sum = 0.0f;
                     float weight_sum = 0.0f;
                     for (int row = 0; row < weights->rows(); ++row, window += weights->row_stride()) {

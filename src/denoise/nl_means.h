@@ -7,6 +7,7 @@
 #include "denoise/planes.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace etendue {
@@ -43,9 +44,13 @@ class WindowWeights {
 
     /// Returns the weights of the window around (x, y), a pixel of the tile: `rows()` rows of `row_stride()` weights,
     /// of which the first `rows()` count and the others are 0.
-    [[nodiscard]] const float* window(int x, int y) const;
+    [[nodiscard]] std::span<const float> window(int x, int y) const;
     [[nodiscard]] int rows() const { return 2 * settings_.radius + 1; }
     [[nodiscard]] int row_stride() const { return row_stride_; }
+    /// Number of weights of one window: rows() * row_stride().
+    [[nodiscard]] std::size_t window_size() const {
+        return static_cast<std::size_t>(rows()) * static_cast<std::size_t>(row_stride_);
+    }
 
   private:
     void compute_offset(const NlMeansGuide& guide, int dx, int dy);

@@ -19,10 +19,9 @@ struct Scratch {
 
 void regress_tile(const RegressionInput& input, const PixelRect& tile, Scratch& scratch, Planes& sums) {
     scratch.weights.compute(input.guide, tile);
-    const auto window_size = static_cast<std::size_t>(scratch.weights.rows() * scratch.weights.row_stride());
     for (int y = tile.y0; y < tile.y1; ++y) {
         for (int x = tile.x0; x < tile.x1; ++x) {
-            scratch.fit.fit(input.target, input.features, std::span(scratch.weights.window(x, y), window_size), x, y);
+            scratch.fit.fit(input.target, input.features, scratch.weights.window(x, y), x, y);
             scratch.fit.add_to(sums);
         }
     }

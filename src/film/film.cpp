@@ -114,15 +114,15 @@ Film Film::as_half(const Film& part) const {
         const PixelSum& all = pixels_[i];
         const PixelSum& some = part.pixels_[i];
         const double stretch = stretch_to_half(some.samples, all.samples);
-        const auto count = static_cast<double>(all.samples / 2);
+        const auto samples = all.samples / 2;
+        const auto count = static_cast<double>(samples);
         const double all_scale = count * all.scale();
         const double some_scale = count * some.scale();
         const auto even = [&](double of_all, double of_some) {
             return of_all * all_scale + stretch * (of_some * some_scale - of_all * all_scale);
         };
         half.pixels_[i] = {
-            even(all.r, some.r), even(all.g, some.g), even(all.b, some.b), even(all.alpha, some.alpha), count,
-            all.samples / 2};
+            even(all.r, some.r), even(all.g, some.g), even(all.b, some.b), even(all.alpha, some.alpha), count, samples};
         const std::span<double> sums = half.layers_.sums(i);
         for (std::size_t k = 0; k < layout.ray_sum(); ++k) sums[k] = even(layers_.sums(i)[k], part.layers_.sums(i)[k]);
         if (layout.has_ray_counts && some.samples > 0)

@@ -30,8 +30,9 @@ void SlopePieces::read_rows(int, int y_begin, int y_end, std::span<float> values
     for (int y = 2 * y_begin; y < end_y; ++y)
         for (int x = 0; x < end_x; ++x) {
             const SlopeMoments moments = slopes_.moments(x, y, read);
-            const auto texel = static_cast<std::size_t>((y / 2 - y_begin) * level_.width + x / 2);
-            for (std::size_t i = 0; i < moments.size(); ++i) values[texel * moments.size() + i] += share * moments[i];
+            const int texel = (y / 2 - y_begin) * level_.width + x / 2;
+            float* value = values.data() + static_cast<std::size_t>(texel) * moments.size();
+            for (const float moment : moments) *value++ += share * moment;
         }
 }
 

@@ -142,7 +142,9 @@ TEST_F(FirstPictures, FramesHaveTheExposureOfTheFirstWhateverFollowsTheirNumber)
     write_scene(work_ / "walk");
     const std::string scene = animated_scene((work_ / "walk").string());
     for (const auto& [before, after] : {std::pair("a_", "_2k"), {"b.", ".v2"}, {"c-", ""}}) {
-        const auto name = [&](const std::string& number) { return before + number + after; };
+        const auto name = [before = before, after = after](const std::string& number) {
+            return before + number + after;
+        };
         (void)render({scene, "--frames=-1:2", "-o", name("####") + ".exr"});
         EXPECT_TRUE(exposure_of(name("-0001")).at("chosen").get<std::string>().starts_with("half of it"));
         for (const char* const number : {"0000", "0001", "0002"})

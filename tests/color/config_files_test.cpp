@@ -25,7 +25,7 @@ class ConfigFiles : public testing::Test {
 
     /// A config with `spaces` besides the reference space, and a view of `shown`.
     fs::path config(const std::string& spaces, const std::string& shown = "a") const {
-        const fs::path file = folder_ / "config.ocio";
+        fs::path file = folder_ / "config.ocio";
         std::ofstream(file) << "ocio_profile_version: 2\nsearch_path: .\nroles: {scene_linear: ref, default: ref}\n"
                                "file_rules:\n  - !<Rule> {name: Default, colorspace: ref}\n"
                                "displays:\n  d:\n    - !<View> {name: v, colorspace: "

@@ -44,8 +44,8 @@ TEST(NlMeans, WeightsAreThoseOfTheFormula) {
         for (const auto& [x, y] : {std::pair{32, 32}, std::pair{44, 36}, std::pair{38, 33}})
             for (int dy = -settings.radius; dy <= settings.radius; ++dy)
                 for (int dx = -settings.radius; dx <= settings.radius; ++dx) {
-                    const float* window = weights.window(x, y);
-                    const float weight = window[(dy + settings.radius) * weights.row_stride() + dx + settings.radius];
+                    const int place = (dy + settings.radius) * weights.row_stride() + dx + settings.radius;
+                    const float weight = weights.window(x, y)[static_cast<std::size_t>(place)];
                     EXPECT_NEAR(double(weight), weight_of(guide, settings, x, y, x + dx, y + dy), 1e-4)
                         << x << " " << y << " " << dx << " " << dy;
                 }

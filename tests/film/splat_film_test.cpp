@@ -49,7 +49,7 @@ TEST(SplatFilm, ASplatIsSpreadByTheFilter) {
         for (int x = 0; x < kWidth; ++x) {
             const float expected = 2.0f * filter.evaluate(static_cast<float>(x) + 0.5f - at.x) *
                                    filter.evaluate(static_cast<float>(y) + 0.5f - at.y) * kWidth * kHeight / 1000.0f;
-            const float value = image[static_cast<std::size_t>(4 * (y * kWidth + x))];
+            const float value = image[4 * static_cast<std::size_t>(y * kWidth + x)];
             EXPECT_NEAR(value, expected, 1e-5f);
             sum += static_cast<double>(value);
         }

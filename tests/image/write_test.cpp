@@ -4,9 +4,10 @@
 #include "image/read.h"
 #include "image_test_files.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -86,11 +87,13 @@ TEST(WriteImage, ExrCarriesEveryKindOfAttribute) {
     const OIIO::ImageSpec spec = spec_of(folder / "a.exr");
     const auto* read_primaries = spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
     ASSERT_TRUE(read_primaries);
-    EXPECT_EQ(std::memcmp(read_primaries->data(), primaries.data(), 8 * sizeof(float)), 0);
+    EXPECT_TRUE(std::ranges::equal(std::span(static_cast<const float*>(read_primaries->data()), 8), primaries));
     for (const char* name : {"worldToCamera", "worldToNDC"}) {
         const auto* read_matrix = spec.find_attribute(name, OIIO::TypeMatrix);
         ASSERT_TRUE(read_matrix) << name;
-        EXPECT_EQ(std::memcmp(read_matrix->data(), matrix.getValue(), 16 * sizeof(float)), 0) << name;
+        EXPECT_TRUE(std::ranges::equal(std::span(static_cast<const float*>(read_matrix->data()), 16),
+                                       std::span(matrix.getValue(), 16)))
+            << name;
     }
     EXPECT_EQ(spec.get_string_attribute("etendue:scene"), "a scene");
     EXPECT_EQ(spec.get_int_attribute("etendue:spp"), 64);

@@ -99,9 +99,12 @@ class ReliefBelowPixels : public testing::Test {
         const std::vector<Rgb> pixels = render_pixels(world, kReliefPath, {0, 0, size, size}, size, size, spp);
         Means sums{};
         for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x)
-                sums[static_cast<std::size_t>(y * kBlocks / size * kBlocks + x * kBlocks / size)] +=
-                    static_cast<double>(pixels[static_cast<std::size_t>(y * size + x)].g) / (size * size);
+            for (int x = 0; x < size; ++x) {
+                const int block = y * kBlocks / size * kBlocks + x * kBlocks / size;
+                const int pixel = y * size + x;
+                sums[static_cast<std::size_t>(block)] +=
+                    static_cast<double>(pixels[static_cast<std::size_t>(pixel)].g) / (size * size);
+            }
         return sums;
     }
     static Difference compare(const Means& small, const Means& large) {

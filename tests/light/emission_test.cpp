@@ -65,9 +65,9 @@ TEST(Emission, RaysCarryThePowerOfTheLight) {
     const std::vector<NamedLight> all = lights();
     for (const auto& [name, light] : all) {
         Random random(4);
-        std::vector<double> carried;
-        for (int i = 0; i < 40'000; ++i)
-            carried.push_back(static_cast<double>(average(sample_emission(light, numbers(random), kScene).weight())));
+        std::vector<double> carried(40'000);
+        for (double& value : carried)
+            value = static_cast<double>(average(sample_emission(light, numbers(random), kScene).weight()));
         const double power = static_cast<double>(light_power(light, kScene.radius));
         const TTestResult result = t_test(carried, power, 2e-5 * power);
         EXPECT_GE(result.p_value, sidak_level(kFamilyLevel, all.size())) << name << ": " << result.str();

@@ -47,7 +47,7 @@ TEST(LightAim, PicksDirectionsWithTheStatedDensity) {
         const Vec3f point{0.1f, 0.0f, 0.05f};
         const auto sampler = [&, cone = cone](Random& random) -> std::optional<Vec3f> {
             Vec2f u = random.next_2d();
-            if (const auto aimed = aim.aim(point, cone, u)) return aimed;
+            if (auto aimed = aim.aim(point, cone, u)) return aimed;
             return sample_emission_in_cone(point, cone.axis, cone.cos_half, u).direction;
         };
         const auto density = [&, cone = cone](const Vec3f& w) {
@@ -89,9 +89,9 @@ TEST(LightAim, PicksPlacesAcrossADirectionWithTheStatedDensity) {
 
 TEST(LightAim, SeesManySpheresAsFew) {
     Random random(3);
-    std::vector<AimSphere> spheres;
-    for (int i = 0; i < 1000; ++i)
-        spheres.push_back({{random.next_2d().x * 10.0f, random.next_2d().x, random.next_2d().x * 5.0f}, 0.01f});
+    std::vector<AimSphere> spheres(1000);
+    for (AimSphere& sphere : spheres)
+        sphere = {{random.next_2d().x * 10.0f, random.next_2d().x, random.next_2d().x * 5.0f}, 0.01f};
     const LightAim aim(spheres);
     EXPECT_EQ(aim.spheres().size(), LightAim::kMostSpheres);
     for (const AimSphere& sphere : spheres) {

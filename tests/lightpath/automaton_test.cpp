@@ -1,5 +1,6 @@
 #include "lightpath/automaton.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -101,21 +102,21 @@ constexpr std::array kCases{
 };
 
 PathAutomaton automaton_of(const std::vector<std::string>& texts) {
-    std::vector<PathExpression> expressions;
-    for (const std::string& text : texts) expressions.push_back(parse_expression(text));
+    std::vector<PathExpression> expressions(texts.size());
+    std::ranges::transform(texts, expressions.begin(), parse_expression);
     return {expressions, kNames};
 }
 
 PathAutomaton automaton_of_cases() {
-    std::vector<std::string> texts;
-    for (const Case& c : kCases) texts.emplace_back(c.expression);
+    std::vector<std::string> texts(kCases.size());
+    std::ranges::transform(kCases, texts.begin(), &Case::expression);
     return automaton_of(texts);
 }
 
 TEST(PathAutomaton, ReadsEveryShortPathAsAnIndependentMatcherDoes) {
     const PathAutomaton automaton = automaton_of_cases();
-    std::vector<std::regex> references;
-    for (const Case& c : kCases) references.emplace_back(c.reference);
+    std::vector<std::regex> references(kCases.size());
+    std::ranges::transform(kCases, references.begin(), &Case::reference);
     for_all_paths(3, [&](const Path& path) {
         const ExpressionMask expressions = classify(automaton, path);
         const std::string word = path.word();
@@ -148,8 +149,8 @@ TEST(PathAutomaton, HasBounds) {
 
 TEST(PathAutomaton, LayersOfManyMaterialsStayFew) {
     // Which of them a path has met so far is all that there is to know.
-    std::vector<std::string> layers;
-    for (int i = 0; i < 8; ++i) layers.push_back("C .* <.'m" + std::to_string(i) + "'> .* L");
+    std::vector<std::string> layers(8);
+    for (std::size_t i = 0; i < layers.size(); ++i) layers[i] = "C .* <.'m" + std::to_string(i) + "'> .* L";
     const PathAutomaton automaton = automaton_of(layers);
     EXPECT_LE(automaton.eye_states(), 2 * 256 + 4);
     EXPECT_LE(automaton.light_states(), 2 * 256 + 4);

@@ -73,8 +73,8 @@ TEST(IdNames, AreAListInTheOrderOfTheIds) {
 TEST(MatteCollisions, AreDifferentNamesWithOneId) {
     std::vector<std::string> names{"a", "b", "a"};
     EXPECT_TRUE(matte_collisions(names).empty());
-    std::vector<std::string> many;
-    for (int i = 0; i < 300000; ++i) many.push_back(fmt::format("n{}", i));
+    std::vector<std::string> many(300'000);
+    for (std::size_t i = 0; i < many.size(); ++i) many[i] = fmt::format("n{}", i);
     const std::vector<MatteCollision> found = matte_collisions(many);
     ASSERT_FALSE(found.empty()) << "300,000 names make about ten in 32 bits";
     EXPECT_LT(found.size(), 40u);

@@ -7,10 +7,12 @@
 #include "output/software_name.h"
 #include "test_frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -81,7 +83,7 @@ TEST(ExrDriver, CarriesAllMetadata) {
     const auto* found = spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
     ASSERT_TRUE(found);
     const std::vector<float> ap1{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f};
-    EXPECT_EQ(std::memcmp(found->data(), ap1.data(), 8 * sizeof(float)), 0);
+    EXPECT_TRUE(std::ranges::equal(std::span(static_cast<const float*>(found->data()), 8), ap1));
 }
 
 // Names as OpenImageIO has them: Copyright is owner, ImageDescription comments, FNumber aperture.

@@ -47,7 +47,7 @@ double mean_of(const World& world, const Integrator& integrator) {
     double sum = 0.0;
     for (std::size_t i = 0; i < pixels.size(); ++i)
         if (i % 4 != 3) sum += static_cast<double>(pixels[i]);  // not alpha
-    return sum / static_cast<double>(pixels.size() / 4 * 3);
+    return sum / (0.75 * static_cast<double>(pixels.size()));
 }
 
 // Samples are the same, and where rounding takes none of them another way, so are images to some 1e-6. One sample of

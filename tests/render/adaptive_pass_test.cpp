@@ -124,7 +124,7 @@ TEST(SampleGoals, TrustWhatWasMeasured) {
 TEST(VarianceAround, IsThatOfTheNeighboursAndNeverItsOwn) {
     constexpr int kWidth = 20;
     constexpr int kHeight = 15;
-    const auto at = [](int x, int y) { return static_cast<std::size_t>(y * kWidth + x); };
+    const auto at = [](int x, int y) { return static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x); };
     std::vector<float> variance(kWidth * kHeight, 0.0f);
     variance[at(10, 7)] = 24.0f;
     const std::vector<float> around = variance_around(variance, kWidth, kHeight, ThreadPool(2));
@@ -153,7 +153,8 @@ TEST(VarianceAround, IsTheLargestOfTheMeans) {
                     for (int v = std::max(0, j - 2); v <= std::min(6, j + 2); ++v)
                         for (int u = std::max(0, i - 2); u <= std::min(8, i + 2); ++u) {
                             if (u == x && v == y) continue;
-                            sum += static_cast<double>(variance[static_cast<std::size_t>(v * 9 + u)]);
+                            const int neighbour = v * 9 + u;
+                            sum += static_cast<double>(variance[static_cast<std::size_t>(neighbour)]);
                             ++count;
                         }
                     largest = std::max(largest, sum / count);

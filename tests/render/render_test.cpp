@@ -89,7 +89,7 @@ TEST_P(Determinism, ACropIsThePartOfTheWholeBitForBit) {
     for (int y = 0; y < kHeight; ++y) {
         const float* expected = &whole[static_cast<std::size_t>(y * kWidth) * 4];
         const float* actual = &larger[static_cast<std::size_t>((y - beyond.y0) * beyond.width() - beyond.x0) * 4];
-        EXPECT_EQ(std::memcmp(expected, actual, kWidth * 4 * sizeof(float)), 0) << "row " << y << " with overscan";
+        EXPECT_TRUE(std::equal(actual, actual + kWidth * 4, expected)) << "row " << y << " with overscan";
     }
 }
 

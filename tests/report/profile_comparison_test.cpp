@@ -184,8 +184,8 @@ double share_called_slower(double ratio, double tolerance, std::pair<int, int> r
     std::mt19937_64 random(20261122);
     std::normal_distribution<double> normal;
     const auto times = [&](int count, double mean, double deviation) {
-        std::vector<double> seconds;
-        for (int i = 0; i < count; ++i) seconds.push_back(mean * std::exp(deviation * normal(random)));
+        std::vector<double> seconds(static_cast<std::size_t>(count));
+        for (double& second : seconds) second = mean * std::exp(deviation * normal(random));
         return with_times(std::move(seconds));
     };
     int slower = 0;

@@ -15,14 +15,20 @@ namespace etendue::test {
 namespace {
 
 std::vector<std::array<int, 4>> texels_of_veil() {
-    std::vector<std::array<int, 4>> texels;
-    for (int i = 0; i < 64; ++i) texels.push_back({200 - 2 * i, 90 + 2 * i, 60 + (i * 37) % 90, (i * 53) % 256});
+    std::vector<std::array<int, 4>> texels(64);
+    for (int i = 0; auto& texel : texels) {
+        texel = {200 - 2 * i, 90 + 2 * i, 60 + (i * 37) % 90, (i * 53) % 256};
+        ++i;
+    }
     return texels;
 }
 
 std::vector<std::array<int, 4>> texels_of_relief() {
-    std::vector<std::array<int, 4>> texels;
-    for (int i = 0; i < 64; ++i) texels.push_back({128 + (i * 29) % 60 - 30, 128 + (i * 41) % 60 - 30, 240, 255});
+    std::vector<std::array<int, 4>> texels(64);
+    for (int i = 0; auto& texel : texels) {
+        texel = {128 + (i * 29) % 60 - 30, 128 + (i * 41) % 60 - 30, 240, 255};
+        ++i;
+    }
     return texels;
 }
 
@@ -144,12 +150,11 @@ World many_lights_room() {
     scene.lights.push_back(spot_light());
     scene.lights.push_back(sun_light());
     scene.lights.back().angle = 0.2f;
-    for (int i = 0; i < 9; ++i) {
-        const auto x = static_cast<float>(i % 3);
-        const auto z = static_cast<float>(i / 3);
-        add_object(scene, quad({x - 1.0f, 1.2f, -4.0f + z}, {0.05f, 0, 0}, {0, 0, 0.08f}),
-                   add_material(scene, emissive({3.0f + 3.0f * x, 4.0f, 2.0f + 2.0f * z})));
-    }
+    for (const float z : {0.0f, 1.0f, 2.0f})
+        for (const float x : {0.0f, 1.0f, 2.0f}) {
+            add_object(scene, quad({x - 1.0f, 1.2f, -4.0f + z}, {0.05f, 0, 0}, {0, 0, 0.08f}),
+                       add_material(scene, emissive({3.0f + 3.0f * x, 4.0f, 2.0f + 2.0f * z})));
+        }
     return compile(std::move(scene));
 }
 

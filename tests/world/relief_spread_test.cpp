@@ -78,9 +78,8 @@ class GroovedSurface : public testing::Test {
   protected:
     World world_of(MaterialDesc material, const Vec4f& tangent = {1.0f, 0.0f, 0.0f, 1.0f}) {
         SceneDesc scene = empty_scene();
-        std::vector<std::array<int, 4>> texels;
-        for (int i = 0; i < 64 * 64; ++i)
-            texels.push_back(i % 2 == 0 ? std::array{185, 128, 242, 255} : std::array{70, 128, 242, 255});
+        std::vector<std::array<int, 4>> texels(std::size_t{64} * 64);
+        for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = {i % 2 == 0 ? 185 : 70, 128, 242, 255};
         add_texture(scene, png_, 64, texels);
         PrimitiveDesc square = quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0});
         square.tangents.assign(4, tangent);

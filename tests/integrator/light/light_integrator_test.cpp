@@ -110,8 +110,8 @@ TEST(LightIntegrator, ASmoothPrismShiftsEveryWavelengthByItsOwnIndex) {
         EXPECT_NEAR(sum.b / sum.g, 1.0f, 0.04f) << integrator;
         Rgb places;
         for (std::size_t p = 0; p < pixels.size(); ++p) {
-            const auto row = static_cast<float>(p / kImageSide);
-            places += pixels[p] * (kHalf * (1.0f - 2.0f * (row + 0.5f) / kImageSide));
+            const std::size_t row = p / kImageSide;
+            places += pixels[p] * (kHalf * (1.0f - 2.0f * (static_cast<float>(row) + 0.5f) / kImageSide));
         }
         EXPECT_NEAR(static_cast<double>(places.r / sum.r - places.b / sum.b), expected, 0.04 * std::abs(expected))
             << integrator;

@@ -300,7 +300,7 @@ TEST(Scenes, AreChosenByNameAndANoteSaysWhichWasTaken) {
 
 TEST(Scenes, WithoutANameOfTheirOwnGetOne) {
     GltfBuilder builder = with_two_scenes();
-    for (int i : {0, 1}) builder.json["scenes"][i].erase("name");
+    for (nlohmann::json& scene : builder.json["scenes"]) scene.erase("name");
     EXPECT_EQ(builder.load({.adjust = [](RenderSettings& s) { s.scene_name = "scene-2"; }}).scene.instances.at(0).name,
               "b");
 }

@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -132,7 +133,7 @@ TEST(MeshoptColors, AreDecodedWithTheBitsThatTheyHave) {
     std::memcpy(wide.data(), words.data(), 8);
     decode_meshopt_colors(wide, 8);
     std::memcpy(words.data(), wide.data(), 8);
-    const auto scaled = [](double value) { return static_cast<std::uint16_t>(value * 65535.0 / 2047.0 + 0.5); };
+    const auto scaled = [](double value) { return static_cast<std::uint16_t>(std::lround(value * 65535.0 / 2047.0)); };
     EXPECT_NEAR(words[0], scaled(1040.0), 1);
     EXPECT_NEAR(words[1], scaled(984.0), 1);
     EXPECT_NEAR(words[2], scaled(992.0), 1);
