@@ -9,7 +9,7 @@
 //
 // Walks from lights carry the adjoint of this, with the ratio of cosines of Veach (1997), equation 5.19. A model that
 // is its own adjoint and loses nothing is known (Schüssler et al., "Microfacet-based Normal Mapping for Robust Monte
-// Carlo Path Tracing", 2017), but any such matte surface sends out as much as arrives on the geometric surface,
+// Carlo Path Tracing", 2017), but any such diffuse surface sends out as much as arrives on the geometric surface,
 // whichever way its normal leans: the relief of normal maps would not show.
 #pragma once
 
@@ -36,11 +36,11 @@ struct LeaningNormal {
         return {wo.x, wo.y, copysign(max(abs(wo.z), T(kLeastCosine)), side(wo))};
     }
     /// Returns the factor by which a cosine lobe grows for the share of it that the surface hides.
-    [[nodiscard]] T matte_gain() const { return T(2.0f) / (T(1.0f) + max(T(0.0f), geometric.z)); }
+    [[nodiscard]] T diffuse_gain() const { return T(2.0f) / (T(1.0f) + max(T(0.0f), geometric.z)); }
     /// Returns that factor for the diffuse lobe under a specular layer, which is narrower and loses less.
     [[nodiscard]] T diffuse_gain() const {
         constexpr float kNarrower = 0.95f;  // the brightest white surface reflects 1.004; by 1 it would be 1.007
-        return T(1.0f) + T(kNarrower) * (matte_gain() - T(1.0f));
+        return T(1.0f) + T(kNarrower) * (diffuse_gain() - T(1.0f));
     }
 
     /// Evaluates the lobe towards `wi` for a walk from the eye. `lobe(w)` returns its parts (BasicBsdfParts) towards

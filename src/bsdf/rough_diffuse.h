@@ -1,4 +1,4 @@
-// A rough matte surface that keeps its energy: EON.
+// A rough diffuse surface that keeps its energy: EON.
 //
 // Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF" (JCGT 14(1), 2025): Fujii's
 // variant of Oren and Nayar's model (equation 3) and a lobe of light that scattered several times (equation 20), which

@@ -20,7 +20,7 @@ namespace etendue {
 }
 
 /// `bsdf`, a lobe that render.json names, where slopes vary by `variance` along x and y. Metals, which have one alpha,
-/// get the mean of both; matte lobes stay as they are.
+/// get the mean of both; diffuse lobes stay as they are.
 [[nodiscard]] Bsdf widened(const Bsdf& bsdf, Vec2f variance);
 
 }  // namespace etendue

@@ -25,9 +25,9 @@ Beam::Beam(Kind kind, float half_angle)
       sin_outer_(std::sqrt((1.0f - cos_outer_) * (1.0f + cos_outer_))) {}
 
 Beam Beam::panel(float spread) {
-    // Beyond, tangents are too large to differ from the matte surface's.
-    constexpr float kMatte = 0.9999f * kPi;
-    if (spread >= kMatte) return {};
+    // Beyond, tangents are too large to differ from the diffuse surface's.
+    constexpr float kDiffuse = 0.9999f * kPi;
+    if (spread >= kDiffuse) return {};
     Beam beam(Kind::Panel, 0.5f * spread);
     const double half = 0.5 * static_cast<double>(spread);
     beam.tan_outer_ = static_cast<float>(std::tan(half));

@@ -19,11 +19,11 @@ namespace etendue {
 
 class Beam {
   public:
-    /// Makes the beam of a matte surface: radiance is the same in all directions.
+    /// Makes the beam of a diffuse surface: radiance is the same in all directions.
     Beam() = default;
 
     /// Makes the beam of a panel behind a grid of slats: light leaves at most `spread` / 2 from the normal, `spread`
-    /// radians, (0, pi]. Its power is that of the matte surface, its radiance
+    /// radians, (0, pi]. Its power is that of the diffuse surface, its radiance
     ///   (tan a - tan theta) / (tan a - a)   with a = spread / 2
     /// times as much (Blender's spread of area lamps, developer.blender.org/D10594).
     [[nodiscard]] static Beam panel(float spread);
@@ -32,15 +32,15 @@ class Beam {
     /// KHR_lights_punctual has them: radiance is falloff / cos theta times that of the disk along its normal.
     [[nodiscard]] static Beam spot(float inner, float outer);
 
-    [[nodiscard]] bool is_matte() const { return kind_ == Kind::Matte; }
+    [[nodiscard]] bool is_diffuse() const { return kind_ == Kind::Diffuse; }
 
     /// Returns the factor of the radiance in a direction with the cosine `cosine` to the normal, > 0.
     [[nodiscard]] float factor(float cosine) const {
-        if (kind_ == Kind::Matte) return 1.0f;
+        if (kind_ == Kind::Diffuse) return 1.0f;
         return cosine > cos_outer_ ? shaped_factor(cosine) : 0.0f;
     }
 
-    /// Returns the power of a surface over that of a matte one with the same radiance, without this factor.
+    /// Returns the power of a surface over that of a diffuse one with the same radiance, without this factor.
     [[nodiscard]] float mean_factor() const { return mean_factor_; }
 
     /// Returns the half angle of the cone that light leaves into, radians.
@@ -48,24 +48,24 @@ class Beam {
 
     /// Samples a direction around +z by its cosine, within the cone.
     [[nodiscard]] Vec3f sample(Vec2f u) const {
-        if (kind_ == Kind::Matte) return square_to_cosine_hemisphere(u);
+        if (kind_ == Kind::Diffuse) return square_to_cosine_hemisphere(u);
         const Vec2f d = square_to_disk(u) * sin_outer_;
         return {d.x, d.y, std::sqrt(std::fmax(0.0f, 1.0f - dot(Vec3f(d.x, d.y, 0.0f), Vec3f(d.x, d.y, 0.0f))))};
     }
 
-    /// Returns the density of `sample`, 1/sr, over that of a matte surface.
+    /// Returns the density of `sample`, 1/sr, over that of a diffuse surface.
     [[nodiscard]] float density_factor(float cosine) const {
-        if (kind_ == Kind::Matte) return 1.0f;
+        if (kind_ == Kind::Diffuse) return 1.0f;
         return cosine >= cos_outer_ ? 1.0f / (sin_outer_ * sin_outer_) : 0.0f;
     }
 
   private:
-    enum class Kind : std::uint8_t { Matte, Panel, Spot };
+    enum class Kind : std::uint8_t { Diffuse, Panel, Spot };
 
     Beam(Kind kind, float half_angle);
     [[nodiscard]] float shaped_factor(float cosine) const;
 
-    Kind kind_ = Kind::Matte;
+    Kind kind_ = Kind::Diffuse;
     float half_angle_ = 0.5f * kPi;
     float cos_outer_ = 0.0f;
     float sin_outer_ = 1.0f;

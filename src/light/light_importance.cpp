@@ -12,7 +12,7 @@ namespace {
 
 /// Is the least value of a cosine: what bounds and rounding exclude keeps this share of its importance.
 constexpr float kFloor = 1e-3f;
-/// Is the share of what a matte surface receives that goes by the bound; the rest goes by the mean.
+/// Is the share of what a diffuse surface receives that goes by the bound; the rest goes by the mean.
 constexpr float kByBound = 0.1f;
 /// Is the least cosine of wo, where a lobe grows without bound as it grazes.
 constexpr float kLeastCosine = 0.1f;
@@ -95,8 +95,8 @@ Wide received(const Sight& sight, const LightReceiverLanes& receivers) {
     const Wide cosine = select(sight.is_inside || cos_i >= sight.cos_b, 1.0f, max(cos_most, kFloor));
     const Wide softened = max(sight.squared + sight.squared_radius * (1.0f / 3.0f), kLeastSoftened);
     const Wide mean = max(height, 0.0f) / (softened * sqrt(softened));
-    const Wide matte = mean * (1.0f - kByBound) + sight.by_distance * cosine * kByBound;
-    Wide by_surface = matte;
+    const Wide diffuse = mean * (1.0f - kByBound) + sight.by_distance * cosine * kByBound;
+    Wide by_surface = diffuse;
     if (receivers.any_glossy) {
         const Wide cos_o = dot(receivers.normal, receivers.wo);
         const Wide cos_both = cos_i + cos_o;
@@ -107,7 +107,7 @@ Wide received(const Sight& sight, const LightReceiverLanes& receivers) {
         const Wide lobe = squared_alpha / (spread * spread) * (0.25f / max(cos_o, kLeastCosine));
         const Wide mirrored = sight.by_distance * select(cosine > kFloor, max(lobe, kFloor), kFloor);
         by_surface =
-            select(receivers.glossy > 0.0f, matte * (1.0f - receivers.glossy) + mirrored * receivers.glossy, matte);
+            select(receivers.glossy > 0.0f, diffuse * (1.0f - receivers.glossy) + mirrored * receivers.glossy, diffuse);
     }
     const WideMask has_normal = dot(receivers.normal, receivers.normal) > 0.0f;
     return select(has_normal, by_surface, sight.by_distance);

@@ -46,7 +46,7 @@ struct DielectricDesc {
     VolumeDesc volume{.closed = true};
 };
 
-/// A matte reflector with a constant albedo.
+/// A diffuse reflector with a constant albedo.
 struct DiffuseDesc {
     Rgb albedo{0.5f};        ///< linear Rec.709, each channel in [0, 1]
     float roughness = 0.0f;  ///< roughness of the facets, [0, 1]; 0 is Lambert's surface
@@ -116,9 +116,9 @@ using MaterialModelDesc = std::variant<std::monostate, ConductorDesc, Dielectric
 
 /// How emission depends on the angle to the normal (light/beam.h).
 struct BeamDesc {
-    enum class Kind { Matte, Panel, Spot };
+    enum class Kind { Diffuse, Panel, Spot };
 
-    Kind kind = Kind::Matte;
+    Kind kind = Kind::Diffuse;
     float spread = 3.14159265f;     ///< panel: radians, full angle of the cone that light leaves into, (0, pi]
     float inner_cone_angle = 0.0f;  ///< spot: as in LightDesc
     float outer_cone_angle = 0.785398163f;

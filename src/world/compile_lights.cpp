@@ -88,7 +88,7 @@ bool add_surface_light(std::size_t i, std::uint32_t index, std::uint32_t slot, W
     const Material& material = data.materials[geometry.material];
     const bool shares_place = !data.shares_place_of_slot.empty() && data.shares_place_of_slot[slot] != 0;
     const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque &&
-                         !material.has_coat && !shares_place && material.beam.is_matte();
+                         !material.has_coat && !shares_place && material.beam.is_diffuse();
     // Rays from it and to it pass what touches it.
     const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
     const Vec3f error = max_components(mesh_position_error(geometry, instance), Vec3f(reach));

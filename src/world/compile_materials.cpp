@@ -126,7 +126,7 @@ Beam compile_beam(const BeamDesc& desc) {
             return Beam::panel(desc.spread);
         case BeamDesc::Kind::Spot:
             return Beam::spot(desc.inner_cone_angle, desc.outer_cone_angle);
-        case BeamDesc::Kind::Matte:
+        case BeamDesc::Kind::Diffuse:
             break;
     }
     return {};

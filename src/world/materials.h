@@ -36,10 +36,10 @@ class Materials {
     [[nodiscard]] const PlainSurface* plain_surface(const Hit& hit) const {
         return hit.in_contact ? nullptr : plain_surfaces_.of_geometry[hit.geometry];
     }
-    /// Returns the lobe of a plain surface that is matte; else null.
+    /// Returns the lobe of a plain surface that is diffuse; else null.
     [[nodiscard]] const Bsdf* plain_bsdf(const Hit& hit) const {
         const PlainSurface* surface = plain_surface(hit);
-        return surface != nullptr ? surface->matte : nullptr;
+        return surface != nullptr ? surface->diffuse : nullptr;
     }
     /// Adds what the textures of a plain `surface` are asked for at `uv` over `footprint`, those of its set.
     void add_lookups(const PlainSurface& surface, Vec2f uv, const TextureFootprint& footprint,

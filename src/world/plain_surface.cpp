@@ -19,7 +19,7 @@ std::optional<PlainSurface> make_plain_surface(const WorldData& data, const Mate
     if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) {
         const auto* diffuse = std::get_if<Diffuse>(constant);
         if (diffuse == nullptr) return std::nullopt;
-        return PlainSurface{.matte = constant, .albedo = diffuse->albedo};
+        return PlainSurface{.diffuse = constant, .albedo = diffuse->albedo};
     }
     const GltfModel& model = std::get<GltfModel>(material.model);
     const TextureSlot& base_color = model.base_color_texture;
@@ -64,7 +64,7 @@ PlainSurfaces find_plain_surfaces(const WorldData& data) {
             const PlainSurface& surface = surfaces.of_material[geometry.material];
             // Vertex colours tint what glTF's model says, and nothing else.
             if (is_plain[geometry.material] && geometry.motion.empty() && !geometry.shape &&
-                (surface.matte != nullptr || geometry.colors.empty()))
+                (surface.diffuse != nullptr || geometry.colors.empty()))
                 surfaces.of_geometry[index] = &surface;
         }
     }

@@ -11,18 +11,18 @@ namespace etendue {
 struct WorldData;
 
 /// Describes what most surfaces are: triangles, placed once or copied, and still. They do not emit light, bound no
-/// body, and have no relief; they are matte, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex
+/// body, and have no relief; they are diffuse, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex
 /// colours, whose base colour, metalness and roughness may come from textures that share a set of coordinates.
 struct PlainSurface {
-    const Bsdf* matte = nullptr;          ///< its Diffuse lobe, or null
+    const Bsdf* diffuse = nullptr;        ///< its Diffuse lobe, or null
     Rgb albedo{};                         ///< albedo of the Diffuse lobe
-    MetallicRoughness glossy{};           ///< if it is not matte: its lobe, but for what textures change
+    MetallicRoughness glossy{};           ///< if it is not diffuse: its lobe, but for what textures change
     const GltfModel* textured = nullptr;  ///< the model whose textures change the lobe, or null
     int texcoord = 0;                     ///< the set of coordinates that these textures share
 
-    /// The lobe of one that is neither matte nor textured, else null.
+    /// The lobe of one that is neither diffuse nor textured, else null.
     [[nodiscard]] const MetallicRoughness* untextured_lobe() const {
-        return matte == nullptr && textured == nullptr ? &glossy : nullptr;
+        return diffuse == nullptr && textured == nullptr ? &glossy : nullptr;
     }
     /// The lobe where the textures of the base colour and of metalness and roughness have these texels, linear Rec.709;
     /// 1 where there is no texture. It need not be plain: textures may say that it mirrors.

@@ -70,7 +70,7 @@ float compression_ratio(const BsdfSample& sample, float cos_o, float cos_i) {
     return std::abs(cos_o) / (sample.eta * sample.eta * std::max(std::abs(cos_i), 1e-6f));
 }
 
-/// The parts of a lobe whose diffuse one is a cosine lobe: that of rough matte surfaces is not, and goes with the
+/// The parts of a lobe whose diffuse one is a cosine lobe: that of rough diffuse surfaces is not, and goes with the
 /// other.
 BsdfParts lobe_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
     BsdfParts parts = evaluate_bsdf_parts(bsdf, wo, wi, mode);
@@ -88,7 +88,8 @@ BsdfValue Scattering::evaluate(const Vec3f& wi, TransportMode mode) const {
     if (has_no_eye_along(wi, mode)) return {};
     const Placed placed_wi = placed(wi);
     // The commonest by far, and many at once elsewhere.
-    if (const auto* matte = std::get_if<Diffuse>(bsdf_)) return evaluate_matte(surface_, *matte, placed_wi.w, mode);
+    if (const auto* diffuse = std::get_if<Diffuse>(bsdf_))
+        return evaluate_diffuse(surface_, *diffuse, placed_wi.w, mode);
     if (const auto* layered = under_leaning_coat())
         return CoatedScattering(*layered, surface_).evaluate_parts(wi, mode).sum();
     if (leans_) return evaluate_placed(placed_wi, mode).sum();
@@ -168,7 +169,7 @@ float Scattering::reverse_pdf_solid_angle(const Vec3f& wi, TransportMode mode) c
     const bool is_eye = mode == TransportMode::Radiance;
     if (std::holds_alternative<Diffuse>(*bsdf_)) {
         if (!(from.side > 0.0f)) return 0.0f;
-        return is_eye ? matte_pdf_for_light(surface_.leaning, to.w) : matte_pdf_for_eye(surface_.leaning, to.w);
+        return is_eye ? diffuse_pdf_for_light(surface_.leaning, to.w) : diffuse_pdf_for_eye(surface_.leaning, to.w);
     }
     if (const auto* layered = under_leaning_coat())
         return CoatedScattering(*layered, surface_).reverse_pdf_solid_angle(wi, mode);
@@ -188,7 +189,7 @@ BsdfSample Scattering::sample(float u_lobe, Vec2f u, TransportMode mode) const {
 }
 
 BsdfSample Scattering::sample_both_sides(float u_lobe, Vec2f u, TransportMode mode) const {
-    if (const auto* matte = std::get_if<Diffuse>(bsdf_)) return sample_matte(surface_, *matte, u, mode);
+    if (const auto* diffuse = std::get_if<Diffuse>(bsdf_)) return sample_diffuse(surface_, *diffuse, u, mode);
     if (const auto* layered = under_leaning_coat()) return CoatedScattering(*layered, surface_).sample(u_lobe, u, mode);
     if (leans_) return mode == TransportMode::Importance ? sample_for_light(u_lobe, u) : sample_for_eye(u_lobe, u);
     if (!placed_wo().agrees()) return {};

@@ -32,7 +32,7 @@ TEST(Gloss, OfConductorsIsAllButTheirRoughness) {
     EXPECT_EQ(gloss_of(Bsdf(metal), 0.5f).alpha, 0.3f);
 }
 
-TEST(Gloss, NothingMatteOrBlackOrADeltaHasAny) {
+TEST(Gloss, NothingDiffuseOrBlackOrADeltaHasAny) {
     EXPECT_EQ(gloss_of(Bsdf(Diffuse{Rgb(0.5f)}), 0.5f).share, 0.0f);
     MetallicRoughness black;
     black.base = black.f0 = Rgb(0.0f);

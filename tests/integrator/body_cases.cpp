@@ -108,7 +108,7 @@ MaterialDesc frosted_air() {
 }
 
 /// Light that is sampled for a boundary comes from the side that the path does not, through what fills that one.
-std::vector<ClosedFormCase> matte_boundary_cases() {
+std::vector<ClosedFormCase> diffuse_boundary_cases() {
     std::vector<ClosedFormCase> cases;
     const auto with_lamp = [&](const std::string& name, const PrimitiveDesc& body, float lamp, double radiance) {
         SceneDesc scene = empty_in_environment();
@@ -117,8 +117,8 @@ std::vector<ClosedFormCase> matte_boundary_cases() {
         add_light(scene, LightType::Point, 2.0f, {0.0f, 0.0f, lamp});
         cases.push_back({name, scene, radiance, 1e-4, {.max_depth = 2}, kFindDeltaLights, 16});
     };
-    with_lamp("lamp_behind_a_matte_boundary", slab(-1.0f, -3.0f), -2.0f, 2.0 / kPiD * 0.25);
-    with_lamp("lamp_before_a_matte_boundary", slab(0.5f, -1.0f), -3.0f, 2.0 / kPiD / 4.0 * 0.25);
+    with_lamp("lamp_behind_a_diffuse_boundary", slab(-1.0f, -3.0f), -2.0f, 2.0 / kPiD * 0.25);
+    with_lamp("lamp_before_a_diffuse_boundary", slab(0.5f, -1.0f), -3.0f, 2.0 / kPiD / 4.0 * 0.25);
     return cases;
 }
 
@@ -295,7 +295,7 @@ std::vector<ClosedFormCase> lossless_cases() {
 std::vector<ClosedFormCase> body_cases() {
     std::vector<ClosedFormCase> cases = absorption_cases();
     for (ClosedFormCase& c : lossless_cases()) cases.push_back(std::move(c));
-    for (ClosedFormCase& c : matte_boundary_cases()) cases.push_back(std::move(c));
+    for (ClosedFormCase& c : diffuse_boundary_cases()) cases.push_back(std::move(c));
     cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_boundary", 1.5f));
     cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_clear_boundary", 1.0f));
     cases.push_back(hidden_boundary_case("lamp_behind_a_hidden_tinted_boundary", 1.0f, 0.25f));

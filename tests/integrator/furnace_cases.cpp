@@ -219,15 +219,15 @@ ClosedFormCase leaning_case(const std::string& name, const MaterialDesc& materia
 }  // namespace
 
 std::vector<ClosedFormCase> leaning_normal_cases() {
-    MaterialDesc matte;
-    matte.override_model = DiffuseDesc{Rgb(1.0f)};
+    MaterialDesc diffuse;
+    diffuse.override_model = DiffuseDesc{Rgb(1.0f)};
     MaterialDesc mirror;
     mirror.override_model = ConductorDesc{"", 0.0f};
     MaterialDesc metal;
     metal.roughness = 0.5f;
     const std::vector<std::string> all = light_too(kFindAllBounces);
-    return {leaning_case("leaning_matte", matte, 40.0f, 10.0f, all),
-            leaning_case("leaning_matte_seen_from_behind", matte, 60.0f, -70.0f, all),
+    return {leaning_case("leaning_diffuse", diffuse, 40.0f, 10.0f, all),
+            leaning_case("leaning_diffuse_seen_from_behind", diffuse, 60.0f, -70.0f, all),
             leaning_case("leaning_metal", metal, 40.0f, 10.0f, all),
             leaning_case("leaning_metal_towards_the_eye", metal, 50.0f, 75.0f, all),
             leaning_case("leaning_metal_seen_from_behind", metal, 60.0f, -70.0f, all),

@@ -34,7 +34,7 @@ void look_at(SceneDesc& scene, const Vec3f& eye, const Vec3f& target) {
     camera.yfov = 0.8f;
 }
 
-/// A matte and a mirroring ball, and one of glass, in the studio.
+/// A diffuse and a mirroring ball, and one of glass, in the studio.
 SceneDesc balls_in_studio() {
     SceneDesc scene = empty_scene();
     MaterialDesc mirror;

@@ -21,7 +21,7 @@ struct NamedBeam {
 };
 
 std::vector<NamedBeam> beams() {
-    return {{"matte", Beam()},
+    return {{"diffuse", Beam()},
             {"wide panel", Beam::panel(3.0f)},
             {"panel", Beam::panel(1.5f)},
             {"narrow panel", Beam::panel(0.1f)},
@@ -55,7 +55,7 @@ TEST(Beam, PanelFallsOffWithTheTangent) {
                     full * (1.0 - std::tan(angle)), 1e-5 * full)
             << angle;
     EXPECT_EQ(panel.factor(std::cos(0.79f)), 0.0f);
-    EXPECT_TRUE(Beam::panel(kPi).is_matte());
+    EXPECT_TRUE(Beam::panel(kPi).is_diffuse());
 }
 
 TEST(Beam, SpotHasTheIntensityOfASpot) {

@@ -129,7 +129,7 @@ double importance(const LightBounds& light, double power, const LightReceiver& r
         const double least_theta_i = std::max(0.0, theta_i - theta_b);
         const double cos_most = is_inside ? 1.0 : std::max(std::cos(least_theta_i), 1e-3);
         const double height = std::max(Vec3d(receiver.normal).dot(to_light), 0.0);
-        const double matte =
+        const double diffuse =
             0.9 * height / std::pow(distance * distance + radius * radius / 3.0, 1.5) + 0.1 * cos_most * by_distance;
         const Vec3d half = (to_light / distance + Vec3d(receiver.wo)).normalized();
         const double cos_h = Vec3d(receiver.normal).dot(half);
@@ -139,12 +139,12 @@ double importance(const LightBounds& light, double power, const LightReceiver& r
                             std::max(Vec3d(receiver.normal).dot(Vec3d(receiver.wo)), 0.1);
         const double mirrored = by_distance * (cos_most > 1e-3 ? std::max(lobe, 1e-3) : 1e-3);
         const auto glossy = static_cast<double>(receiver.glossy);
-        received = (1.0 - glossy) * matte + glossy * mirrored;
+        received = (1.0 - glossy) * diffuse + glossy * mirrored;
     }
     return power / light.cone.measure() * emitted * received;
 }
 
-/// Bare points, matte surfaces and glossy ones in turn.
+/// Bare points, diffuse surfaces and glossy ones in turn.
 LightReceiver random_receiver(Random& random, float size, int i) {
     LightReceiver receiver(random_point(random, size));
     if (i % 3 == 0) return receiver;
@@ -231,7 +231,7 @@ TEST(LightTree, ChoosesForManyAsForEach) {
         const LightTree tree(scenes[scene], kSceneRadius);
         Random random(21);
         for (const std::size_t count : {0u, 1u, 5u, 16u, 17u, 75u}) {
-            // All bare, all matte, all glossy, and in turn.
+            // All bare, all diffuse, all glossy, and in turn.
             for (int kinds = 0; kinds < 4; ++kinds) {
                 std::vector<LightReceiver> receivers;
                 std::vector<Vec2f> u;
@@ -338,14 +338,14 @@ TEST(LightTree, PrefersWhatTheSurfaceFacesAndMirrors) {
     const LightTree tree(lights, kSceneRadius);
     const Vec3f wo = normalize(Vec3f(-1, 1, 0));
     const LightReceiver bare(Vec3f(0.0f));
-    const LightReceiver matte(Vec3f(0.0f), {0, 1, 0});
-    LightReceiver glossy = matte;
+    const LightReceiver diffuse(Vec3f(0.0f), {0, 1, 0});
+    LightReceiver glossy = diffuse;
     glossy.wo = wo;
     glossy.glossy = 1.0f;
     glossy.alpha = 0.1f;
     EXPECT_GT(tree.probability(bare, 2), 0.7f);
-    EXPECT_LT(tree.probability(matte, 2), 0.02f);
-    EXPECT_NEAR(tree.probability(matte, 0), tree.probability(matte, 1), 1e-5f);
+    EXPECT_LT(tree.probability(diffuse, 2), 0.02f);
+    EXPECT_NEAR(tree.probability(diffuse, 0), tree.probability(diffuse, 1), 1e-5f);
     EXPECT_GT(tree.probability(glossy, 0), 0.9f);
     EXPECT_LT(tree.probability(glossy, 1), 0.05f);
 }

@@ -44,20 +44,20 @@ class PlainSurfaces : public testing::Test {
     std::filesystem::path png_ = temporary_file("etendue-plain-surface.png");
 };
 
-TEST_F(PlainSurfaces, AreMatteOrPlainMetallicRoughness) {
+TEST_F(PlainSurfaces, AreDiffuseOrPlainMetallicRoughness) {
     const World glossy = with([](MaterialDesc&) {});
     ASSERT_NE(surface(glossy), nullptr);
-    EXPECT_EQ(surface(glossy)->matte, nullptr);
+    EXPECT_EQ(surface(glossy)->diffuse, nullptr);
     EXPECT_EQ(surface(glossy)->textured, nullptr);
     EXPECT_FLOAT_EQ(surface(glossy)->glossy.alpha_x, 0.36f);
 
     SceneDesc scene = empty_scene();
     add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
-    const World matte = compile(std::move(scene));
-    ASSERT_NE(surface(matte), nullptr);
-    ASSERT_NE(surface(matte)->matte, nullptr);
-    EXPECT_EQ(std::get<Diffuse>(*surface(matte)->matte).albedo, Rgb(0.5f));
-    EXPECT_EQ(matte.materials().plain_bsdf(intersect(matte, {.direction = {0, 0, -1}})), surface(matte)->matte);
+    const World diffuse = compile(std::move(scene));
+    ASSERT_NE(surface(diffuse), nullptr);
+    ASSERT_NE(surface(diffuse)->diffuse, nullptr);
+    EXPECT_EQ(std::get<Diffuse>(*surface(diffuse)->diffuse).albedo, Rgb(0.5f));
+    EXPECT_EQ(diffuse.materials().plain_bsdf(intersect(diffuse, {.direction = {0, 0, -1}})), surface(diffuse)->diffuse);
 }
 
 TEST_F(PlainSurfaces, AreNotWhatMirrorsEmitsOrHasMoreLayers) {

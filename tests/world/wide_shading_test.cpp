@@ -37,26 +37,26 @@ TEST(WideShading, PointsOfTrianglesAreThoseOfFloat) {
     EXPECT_EQ(Vec3f(flat.x[0], flat.y[0], flat.z[0]), Vec3f(0.0f, 0.6f, 0.8f)) << "no normals at the vertices";
 }
 
-/// f cos, its density and a sample of a matte surface that leans away from its geometric normal.
+/// f cos, its density and a sample of a diffuse surface that leans away from its geometric normal.
 template <typename T, typename Value>
-std::array<T, 8> matte(const std::array<T, 14>& in, const Value& value) {
+std::array<T, 8> diffuse(const std::array<T, 14>& in, const Value& value) {
     const Imath::Vec3<T> geometric = normalize(vec(in, 0));
     const auto frame = BasicFrame<T>::from_normal(normalize(geometric + vec(in, 3) * T(0.3f)));
     return value(frame, geometric, normalize(vec(in, 6)), normalize(vec(in, 9)),
                  Imath::Vec2<T>(abs(in[12]), abs(in[13])));
 }
 
-TEST(WideShading, MatteSurfacesScatterAsTheLobeDoes) {
+TEST(WideShading, DiffuseSurfacesScatterAsTheLobeDoes) {
     const auto wide = [](const auto& frame, const auto& geometric, const auto& wo, const auto& wi, const auto& u) {
         const OrientedSurface surface(frame, geometric, wo, true);
         using T = std::remove_cvref_t<decltype(wo.x)>;
         const BasicDiffuse<T> lobe{BasicRgb<T>(T(0.7f), T(0.5f), T(0.3f))};
-        const auto value = evaluate_matte(surface, lobe, surface.frame.to_local(wi), TransportMode::Radiance);
-        const auto sample = sample_matte(surface, lobe, u, TransportMode::Radiance);
+        const auto value = evaluate_diffuse(surface, lobe, surface.frame.to_local(wi), TransportMode::Radiance);
+        const auto sample = sample_diffuse(surface, lobe, u, TransportMode::Radiance);
         return std::array{value.f_cos.r, value.f_cos.b, value.pdf_solid_angle, sample.wi.x,
                           sample.wi.y,   sample.wi.z,   sample.weight.g,       sample.pdf_solid_angle};
     };
-    EXPECT_LE((largest_lane_difference<14>(-1.0f, 1.0f, [&](const auto& in) { return matte(in, wide); })), 32.0f);
+    EXPECT_LE((largest_lane_difference<14>(-1.0f, 1.0f, [&](const auto& in) { return diffuse(in, wide); })), 32.0f);
 
     // The reference is what all other lobes go through.
     const auto general = [](const Frame& frame, const Vec3f& geometric, const Vec3f& wo, const Vec3f& wi, Vec2f u) {
@@ -72,8 +72,8 @@ TEST(WideShading, MatteSurfacesScatterAsTheLobeDoes) {
     for (int i = 0; i < 100'000; ++i) {
         std::array<float, 14> in{};
         for (float& number : in) number = 2.0f * random.next() - 1.0f;
-        const auto expected = matte(in, general);
-        const auto found = matte(in, wide);
+        const auto expected = diffuse(in, general);
+        const auto found = diffuse(in, wide);
         ASSERT_EQ(found[6] > 0.0f, expected[6] > 0.0f);
         for (const std::size_t o : {0u, 1u, 2u}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
         // A ratio of cosines, which may be small.

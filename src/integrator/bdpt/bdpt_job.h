@@ -1,7 +1,7 @@
 // What a wave of bidirectional path tracing is traced for.
 #pragma once
 
-#include "integrator/bdpt/matte_connections.h"
+#include "integrator/bdpt/diffuse_connections.h"
 #include "scene/integrator_settings.h"
 #include "transport/strategy_sums.h"
 #include "wave/subpath/subpath_wave.h"

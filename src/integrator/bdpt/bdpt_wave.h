@@ -28,7 +28,7 @@ class BdptWave final : public IntegratorScratch {
     /// Bounds the samples of a wave, so that their ten or so vertices each, with 248 bytes more for a lobe that was
     /// evaluated there, stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
-    static_assert(sizeof(PathVertex) + sizeof(MatteEnd) <= 320);
+    static_assert(sizeof(PathVertex) + sizeof(DiffuseEnd) <= 320);
 
     [[nodiscard]] std::size_t bytes() const override;
 
@@ -65,7 +65,7 @@ class BdptWave final : public IntegratorScratch {
         Scattering::TwoWayValue at_eye{};
         Scattering::TwoWayValue at_light{};
     };
-    // Those of plain matte surfaces, whose lanes are computed at once.
+    // Those of plain diffuse surfaces, whose lanes are computed at once.
     struct WideToLight {
         const ConnectibleVertex* vertex;
         std::uint32_t light;  ///< light that was chosen
@@ -77,8 +77,8 @@ class BdptWave final : public IntegratorScratch {
     struct WideBetween {
         const ConnectibleVertex* eye;
         const ConnectibleVertex* light;
-        const MatteEnd* eye_end;
-        const MatteEnd* light_end;
+        const DiffuseEnd* eye_end;
+        const DiffuseEnd* light_end;
         float scale;
     };
     /// Chooses lights for those of eye vertices [first, last) whose connections to them are wanted.
@@ -93,8 +93,8 @@ class BdptWave final : public IntegratorScratch {
     void connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last);
     /// Draws `count` vertices from the cache for `eye`, in place of all that the cache has of an average light subpath.
     void find_cached(const BdptJob& job, const ConnectibleVertex& eye, int count);
-    void find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end, const ConnectibleVertex& light,
-              float scale);
+    void find(const BdptJob& job, const ConnectibleVertex& eye, const DiffuseEnd& eye_end,
+              const ConnectibleVertex& light, float scale);
     void find_singly(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, float scale);
     // With what both ends scatter: weights, and the rays that will tell.
     void weigh(const BdptJob& job, const ToLight& connection);

@@ -26,7 +26,7 @@ void BdptWave::choose_lights(const BdptJob& job, std::size_t first, std::size_t 
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& vertex = to_light_[v];
         if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = 1, .t = vertex.index + 1})) continue;
-        const MatteEnd& end = eye_.vertices().matte_end(vertex);
+        const DiffuseEnd& end = eye_.vertices().diffuse_end(vertex);
         receivers_.push_back(end.exists() ? end.position : eye_.vertices().whole(vertex).position);
         choosing_.push_back(to_light_.numbers(v)[0]);
         lit_.push_back(v);
@@ -44,7 +44,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
     std::array<Vec2f, kBlockLanes> u_triangle;
     std::array<Vec2f, kBlockLanes> u_direction;
     for (std::size_t i = 0; i < lit_.size(); ++i) {
-        const bool is_wide = eye_.vertices().matte_end(to_light_[lit_[i]]).exists();
+        const bool is_wide = eye_.vertices().diffuse_end(to_light_[lit_[i]]).exists();
         meshes[i] = is_wide ? world.lights().even_mesh(choices_[i].light) : nullptr;
         points[i] = receivers_[i].position;
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
@@ -69,7 +69,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         const MeshLight::TriangleChoice& on_light = triangles[i];
         wide_to_lights_.push_back({&vertex, choice.light});
         to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
-        to_light_lanes_.eye.set(lane, eye_.vertices().matte_end(vertex));
+        to_light_lanes_.eye.set(lane, eye_.vertices().diffuse_end(vertex));
         to_light_lanes_.front.set(lane, *mesh, on_light);
         to_light_lanes_.u.set(lane, on_light.u);
         to_light_lanes_.radiance.set(lane, mesh->radiance());
@@ -137,7 +137,7 @@ void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::siz
         const ConnectibleVertex& vertex = to_camera_[v];
         if (!job.lengths.keeps(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
-        const MatteEnd& end = light_.vertices().matte_end(vertex);
+        const DiffuseEnd& end = light_.vertices().diffuse_end(vertex);
         if (!end.exists() && !light_.vertices().whole(vertex).lights_camera) continue;
         const Vec3f& position = end.exists() ? end.position : light_.vertices().whole(vertex).position;
         const auto view = view_from_camera(job.world(), job.job, position, lens, job.camera_rays[vertex.slot].time);
@@ -214,7 +214,7 @@ void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::s
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& eye = to_light_[v];
         const bool has_cache = job.is_shared(eye);
-        const MatteEnd& eye_end = eye_.vertices().matte_end(eye);
+        const DiffuseEnd& eye_end = eye_.vertices().diffuse_end(eye);
         for (const LightVertices::Candidate& own : light_vertices_.own(eye.slot))
             if (!(has_cache && own.is_shared)) find(job, eye, eye_end, own.vertex, 1.0f);
         if (has_cache) find_cached(job, eye, job.settings.cached_connections);
@@ -243,19 +243,19 @@ void BdptWave::find_cached(const BdptJob& job, const ConnectibleVertex& eye, int
     // One number for all, and equal steps from one to the next: each is as likely as any other to be drawn.
     const SampleKey key = samples_[eye.slot].key;
     const float u = sample_2d(job.job.sequence, key, kCacheDimension + static_cast<std::uint32_t>(eye.index)).x;
-    const MatteEnd& eye_end = eye_.vertices().matte_end(eye);
+    const DiffuseEnd& eye_end = eye_.vertices().diffuse_end(eye);
     for (int i = 0; i < count; ++i) {
         const auto drawn = static_cast<std::size_t>((static_cast<float>(i) + u) * step);
         find(job, eye, eye_end, cache[std::min(drawn, cache.size() - 1)].vertex, scale);
     }
 }
 
-void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end,
+void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const DiffuseEnd& eye_end,
                     const ConnectibleVertex& light, float scale) {
     if (!job.lengths.keeps(eye.next_edges + light.next_edges - 1) ||
         !job.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
-    const MatteEnd& light_end = light_.vertices().matte_end(light);
+    const DiffuseEnd& light_end = light_.vertices().diffuse_end(light);
     if (!eye_end.exists() || !light_end.exists()) return find_singly(job, eye, light, scale);
     // About every other one faces away, in no order that a branch could be foretold by.
     const Vec3f w = light_end.position - eye_end.position;

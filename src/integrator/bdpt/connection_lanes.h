@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/columns.h"
-#include "integrator/bdpt/matte_connections.h"
+#include "integrator/bdpt/diffuse_connections.h"
 #include "wave/light_front_columns.h"
 #include "wave/shadow_ray_queue.h"
 
@@ -46,7 +46,7 @@ struct ConnectionColumns {
                   WideMask::first(count - first) && !is_black(light), first);
         }
     }
-    void store(std::size_t first, const Imath::Vec3<Wide>& from, const MatteConnection<Wide>& connection) {
+    void store(std::size_t first, const Imath::Vec3<Wide>& from, const DiffuseConnection<Wide>& connection) {
         origin.store(first, from);
         contribution.store(first, connection.contribution);
         direction.store(first, connection.ray.direction);
@@ -58,7 +58,7 @@ struct ConnectionColumns {
 
 /// Connects vertices of two subpaths; about 5 KiB. Ends stay where they are until rays are asked for.
 struct BetweenLanes : ConnectionColumns {
-    MatteEndsOfBlock eye, light;
+    DiffuseEndsOfBlock eye, light;
     Column merged;  ///< SubpathDensities::merged of the eye's end, or 0 if the light has come by no delta
     Column scale;   ///< how many connections one stands for
 
@@ -67,7 +67,7 @@ struct BetweenLanes : ConnectionColumns {
 
 /// Connects eye vertices to samples of even mesh lights; about 8 KiB.
 struct ToLightLanes : ConnectionColumns {
-    MatteEndsOfBlock eye;
+    DiffuseEndsOfBlock eye;
     LightFrontColumns front;
     Vec2Columns u;  ///< for the point on the triangle
     RgbColumns radiance;
@@ -81,7 +81,7 @@ struct ToLightLanes : ConnectionColumns {
 
 /// Connects light vertices to the camera; about 5 KiB.
 struct ToCameraLanes : ConnectionColumns {
-    MatteEndsOfBlock light;
+    DiffuseEndsOfBlock light;
     Vec3Columns lens, w;  ///< the point there, and the unit vector to it
     Column importance;    ///< CameraConnection::importance_area
 

@@ -23,24 +23,25 @@ void BlockLanes::sample_mesh_lights(std::size_t count) {
 }
 
 template <bool kSamples>
-void BlockLanes::evaluate_matte(std::size_t count) {
+void BlockLanes::evaluate_diffuse(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const OrientedSurface<Wide> oriented = surface(l);
         const BasicDiffuse<Wide> lobe{albedo.load(l)};
-        const BasicBsdfValue<Wide> value =
-            etendue::evaluate_matte(oriented, lobe, oriented.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
+        const BasicBsdfValue<Wide> value = etendue::evaluate_diffuse(
+            oriented, lobe, oriented.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
         f_cos.store(l, value.f_cos);
         pdf.store(l, value.pdf_solid_angle);
         if constexpr (kSamples) {
-            const BasicBsdfSample<Wide> sample = sample_matte(oriented, lobe, u_bsdf.load(l), TransportMode::Radiance);
+            const BasicBsdfSample<Wide> sample =
+                sample_diffuse(oriented, lobe, u_bsdf.load(l), TransportMode::Radiance);
             next_direction.store(l, sample.wi);
             next_weight.store(l, sample.weight);
             next_pdf.store(l, sample.pdf_solid_angle);
         }
     }
 }
-template void BlockLanes::evaluate_matte<false>(std::size_t count);
-template void BlockLanes::evaluate_matte<true>(std::size_t count);
+template void BlockLanes::evaluate_diffuse<false>(std::size_t count);
+template void BlockLanes::evaluate_diffuse<true>(std::size_t count);
 
 void BlockLanes::set_next_origins(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth)

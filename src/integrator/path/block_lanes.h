@@ -65,10 +65,10 @@ struct BlockLanes : SurfaceLanes {
 
     /// Samples mesh lights from `position`, the triangles and `u_light`.
     void sample_mesh_lights(std::size_t count);
-    /// Computes `f_cos` and `pdf` of matte surfaces towards the light, and `next_direction`, `next_weight` and
+    /// Computes `f_cos` and `pdf` of diffuse surfaces towards the light, and `next_direction`, `next_weight` and
     /// `next_pdf` from `u_bsdf` if `kSamples`.
     template <bool kSamples>
-    void evaluate_matte(std::size_t count);
+    void evaluate_diffuse(std::size_t count);
     /// Computes `next_origin` from `next_direction`.
     void set_next_origins(std::size_t count);
     /// Computes `contribution`, whether it `arrives`, and its shadow ray, for the paths from `first` of the wave on.

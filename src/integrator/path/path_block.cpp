@@ -53,7 +53,7 @@ void PathBlock::draw_light_numbers(const PathContext& context, const WavePaths& 
 VertexEvent PathBlock::wide_event(const World& world, const PathWords& words, std::size_t k, const Vec3f& wi) const {
     const auto label = words.label(world, singles[k].point);
     return paths[k].glossy == nullptr
-               ? matte_event(label)
+               ? diffuse_event(label)
                : surface_event(*singles[k].scattering, wi, false, TransportMode::Radiance, label);
 }
 

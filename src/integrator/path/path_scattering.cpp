@@ -11,7 +11,7 @@ namespace etendue {
 void PathScattering::evaluate_and_sample_by_lanes() {
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
         block_.lanes.u_bsdf.store(l, block_.bsdf_direction.load(l));
-    block_.lanes.evaluate_matte<true>(block_.count);
+    block_.lanes.evaluate_diffuse<true>(block_.count);
     if (!block_.on_gloss.empty()) {
         for (std::size_t g = 0; g < block_.on_gloss.size(); ++g)
             glossy_.set_lobe(g, *block_.paths[block_.on_gloss[g]].glossy);
@@ -24,7 +24,7 @@ void PathScattering::evaluate_and_sample_by_lanes() {
 }
 
 void PathScattering::evaluate_by_lanes() {
-    block_.lanes.evaluate_matte<false>(block_.count);
+    block_.lanes.evaluate_diffuse<false>(block_.count);
     if (block_.on_gloss.empty()) return;
     glossy_.take_lights(block_.lanes, block_.count);
     glossy_.evaluate(block_.on_gloss.size());

@@ -23,9 +23,9 @@ struct PathVertex {
 
     Vec3f position{0.0f};                 ///< metres
     Vec3f wo{0.0f};                       ///< unit, to the vertex before
-    std::optional<Scattering> surface{};  ///< none in a medium, nor yet where `matte` is given
-    /// Holds the material of a vertex with a MatteEnd, from which SubpathVertices::whole makes its surface.
-    const Bsdf* matte = nullptr;
+    std::optional<Scattering> surface{};  ///< none in a medium, nor yet where `diffuse` is given
+    /// Holds the material of a vertex with a DiffuseEnd, from which SubpathVertices::whole makes its surface.
+    const Bsdf* diffuse = nullptr;
     Vec3f geometric_normal{0.0f};                ///< unit, on the surface's front
     float clearance = 0.0f;                      ///< metres, as in SurfacePoint
     const HomogeneousMedium* outside = nullptr;  ///< medium on the front; null in vacuum
@@ -47,7 +47,7 @@ struct PathVertex {
 
     /// False in a medium.
     [[nodiscard]] bool is_on_surface() const {
-        assert(surface || matte == nullptr);
+        assert(surface || diffuse == nullptr);
         return surface.has_value();
     }
     /// Returns f |cos theta| towards `w`; the phase function in a medium.
@@ -91,7 +91,7 @@ struct ConnectibleVertex {
     bool is_seen_directly;
     bool is_dispersed;
     bool is_after_delta;
-    float merged;  ///< SubpathDensities::merged of a vertex with a MatteEnd
+    float merged;  ///< SubpathDensities::merged of a vertex with a DiffuseEnd
 };
 
 }  // namespace etendue

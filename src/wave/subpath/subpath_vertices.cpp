@@ -9,16 +9,16 @@ void SubpathVertices::reset(const AovSet* aovs) {
     vertices_.clear();
     interiors_.clear();
     connectible_.clear();
-    matte_ends_.clear();
+    diffuse_ends_.clear();
     words_.reset(aovs);
     bsdf_count_ = 0;
 }
 
 const PathVertex& SubpathVertices::whole(std::uint32_t place) {
     PathVertex& vertex = vertices_[place];
-    if (vertex.matte != nullptr && !vertex.surface) {
-        const MatteEnd& end = matte_ends_[place];
-        vertex.surface.emplace(*vertex.matte, Frame::from_normal(end.normal), end.geometric_normal, vertex.wo);
+    if (vertex.diffuse != nullptr && !vertex.surface) {
+        const DiffuseEnd& end = diffuse_ends_[place];
+        vertex.surface.emplace(*vertex.diffuse, Frame::from_normal(end.normal), end.geometric_normal, vertex.wo);
     }
     return vertex;
 }
@@ -41,7 +41,7 @@ WordRange SubpathVertices::words_after(const PathVertex& vertex, const Vec3f& w)
 
 PathVertex& SubpathVertices::store(SubpathState& state) {
     PathVertex& vertex = vertices_.emplace_back();
-    if (makes_matte_ends_) matte_ends_.emplace_back();
+    if (makes_diffuse_ends_) diffuse_ends_.emplace_back();
     vertex.throughput = state.throughput;
     vertex.words = state.words;
     vertex.slot = state.slot;
@@ -74,7 +74,7 @@ void SubpathVertices::place(const World& world, const SurfacePoint& point, float
 }
 
 std::size_t SubpathVertices::bytes() const {
-    return vector_bytes(vertices_, interiors_, connectible_, matte_ends_) + bsdfs_.size() * sizeof(Bsdf);
+    return vector_bytes(vertices_, interiors_, connectible_, diffuse_ends_) + bsdfs_.size() * sizeof(Bsdf);
 }
 
 }  // namespace etendue

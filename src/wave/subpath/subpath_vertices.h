@@ -4,7 +4,7 @@
 #include "bsdf/bsdf.h"
 #include "transport/dimensions.h"
 #include "wave/aov/path_words.h"
-#include "wave/subpath/matte_end.h"
+#include "wave/subpath/diffuse_end.h"
 #include "wave/subpath/path_vertex.h"
 #include "wave/subpath/subpath_state.h"
 #include "world/world.h"
@@ -23,11 +23,11 @@ struct SideInteriors {
 };
 
 /// Keeps the vertices of a wave of subpaths, in the order of their bounces, with the lobes and words that they point
-/// to, and what connections of plain matte vertices need.
+/// to, and what connections of plain diffuse vertices need.
 class SubpathVertices {
   public:
-    /// `makes_matte_ends`: whether `matte_end` will be asked.
-    SubpathVertices(SubpathEnd end, bool makes_matte_ends) : end_(end), makes_matte_ends_(makes_matte_ends) {}
+    /// `makes_diffuse_ends`: whether `diffuse_end` will be asked.
+    SubpathVertices(SubpathEnd end, bool makes_diffuse_ends) : end_(end), makes_diffuse_ends_(makes_diffuse_ends) {}
 
     /// Forgets all vertices; those to come have the words of `aovs`, which may be null.
     void reset(const AovSet* aovs);
@@ -38,13 +38,14 @@ class SubpathVertices {
     [[nodiscard]] std::span<const PathVertex> all() const { return vertices_; }
     /// Returns the vertices that can be connected, in the order of `all`.
     [[nodiscard]] std::span<const ConnectibleVertex> connectible() const { return connectible_; }
-    /// Returns the vertex at a place in `all` with its surface, which few connections of plain matte vertices ask for.
+    /// Returns the vertex at a place in `all` with its surface, which few connections of plain diffuse vertices ask
+    /// for.
     [[nodiscard]] const PathVertex& whole(std::uint32_t place);
     [[nodiscard]] const PathVertex& whole(const ConnectibleVertex& vertex) { return whole(vertex.vertex); }
-    /// Returns what connections need of `vertex`, if it lies on a plain matte surface in vacuum and its light is still
-    /// of all wavelengths; otherwise, or where floats do not hold its densities, an end that does not exist.
-    [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
-        return matte_ends_[vertex.vertex];
+    /// Returns what connections need of `vertex`, if it lies on a plain diffuse surface in vacuum and its light is
+    /// still of all wavelengths; otherwise, or where floats do not hold its densities, an end that does not exist.
+    [[nodiscard]] const DiffuseEnd& diffuse_end(const ConnectibleVertex& vertex) const {
+        return diffuse_ends_[vertex.vertex];
     }
     /// Returns the share of light, [0, 1], that gets past media between the ends of `ray`, `distance` metres apart,
     /// which starts at `vertex`, one of `all`.
@@ -67,8 +68,8 @@ class SubpathVertices {
     void place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex);
     /// Returns the vertex at a place in `all`.
     [[nodiscard]] PathVertex& operator[](std::uint32_t place) { return vertices_[place]; }
-    /// Returns where the matte end of the vertex at a place in `all` belongs.
-    [[nodiscard]] MatteEnd& matte_end_at(std::uint32_t place) { return matte_ends_[place]; }
+    /// Returns where the diffuse end of the vertex at a place in `all` belongs.
+    [[nodiscard]] DiffuseEnd& diffuse_end_at(std::uint32_t place) { return diffuse_ends_[place]; }
     /// Takes the words of a subpath past a vertex.
     void follow_words(SubpathState& state, const VertexEvent& event) { state.words = scatter(state.words, event); }
 
@@ -82,11 +83,11 @@ class SubpathVertices {
     }
 
     SubpathEnd end_;
-    bool makes_matte_ends_;
+    bool makes_diffuse_ends_;
     std::vector<PathVertex> vertices_;
     std::vector<SideInteriors> interiors_;  ///< of each vertex; empty without clear bodies
     std::vector<ConnectibleVertex> connectible_;
-    std::vector<MatteEnd> matte_ends_;
+    std::vector<DiffuseEnd> diffuse_ends_;
     PathWords words_;
     std::size_t words_of_vertices_ = 0;  ///< the others are of the last connection
     // Lobes that vertices point to; it only grows, so that they stay where they are.

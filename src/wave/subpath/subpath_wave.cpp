@@ -130,7 +130,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
         const std::uint8_t k = on_surface_[s];
         if (make_vertex(job, first, k)) on_surface_[vertices++] = k;
     }
-    if (makes_matte_ends_) store_matte_ends();
+    if (makes_diffuse_ends_) store_diffuse_ends();
     stamp(profile, Stage::Textures);
     sample_bsdfs(first, vertices);
     stamp(profile, Stage::Material);
@@ -239,7 +239,7 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
     const std::size_t lane = path.lane;
     if (!scatter(job, i, lanes_.position[lane], lanes_.next_weight[lane], false)) return false;
     SubpathState& state = states_[i];
-    if (vertices_.words().are_followed()) vertices_.follow_words(state, matte_event(vertices_[path.vertex].label));
+    if (vertices_.words().are_followed()) vertices_.follow_words(state, diffuse_event(vertices_[path.vertex].label));
     state.departing =
         depart(job.mis.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane], lanes_.next_cosine[lane]);
     rays_[i].origin = lanes_.next_origin[lane];

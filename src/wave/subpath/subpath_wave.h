@@ -9,7 +9,7 @@
 #include "wave/camera_wave.h"
 #include "wave/number_pairs.h"
 #include "wave/profile/wave_profile.h"
-#include "wave/subpath/matte_lanes.h"
+#include "wave/subpath/diffuse_lanes.h"
 #include "wave/subpath/subpath_job.h"
 #include "wave/subpath/subpath_state.h"
 #include "wave/subpath/subpath_vertices.h"
@@ -44,8 +44,8 @@ class LightFinder {
 /// A subpath whose ray has hit a surface, between the stages of its shading.
 struct ShadedSubpath {
     SurfacePoint point;           ///< surface point; for a plain surface its material only
-    const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `MatteLanes`
-    std::size_t lane = 0;         ///< lane of the surface, which plain ones have in `MatteLanes`
+    const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `DiffuseLanes`
+    std::size_t lane = 0;         ///< lane of the surface, which plain ones have in `DiffuseLanes`
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
     std::uint32_t vertex = PathVertex::kNoVertex;  ///< place of the vertex that was stored for it
@@ -55,9 +55,9 @@ struct ShadedSubpath {
 
 class SubpathWave {
   public:
-    /// `makes_matte_ends`: whether `SubpathVertices::matte_end` will be asked.
-    SubpathWave(SubpathEnd end, bool makes_matte_ends)
-        : end_(end), makes_matte_ends_(makes_matte_ends), vertices_(end, makes_matte_ends) {}
+    /// `makes_diffuse_ends`: whether `SubpathVertices::diffuse_end` will be asked.
+    SubpathWave(SubpathEnd end, bool makes_diffuse_ends)
+        : end_(end), makes_diffuse_ends_(makes_diffuse_ends), vertices_(end, makes_diffuse_ends) {}
 
     /// Traces the subpath of each sample. After `roulette_depth` rays Russian roulette may end it. Vertices of
     /// former calls are gone. `finder` may be null for lights. Rays are counted in `light`.
@@ -86,7 +86,7 @@ class SubpathWave {
                        std::size_t& kept);
     /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
     bool set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
-    /// Finds and turns the points of the block's subpaths on plain surfaces, with what matte ends hold, all at once.
+    /// Finds and turns the points of the block's subpaths on plain surfaces, with what diffuse ends hold, all at once.
     void set_up_plain();
     /// Computes with which densities the block's subpaths arrive at surfaces.
     void arrive_at_surfaces(const SubpathJob& job, std::size_t first);
@@ -95,11 +95,11 @@ class SubpathWave {
     /// Stores the vertex of the `k`-th subpath of the block from `first` on, if it may have one more; false if it ends,
     /// or only passes through.
     bool make_vertex(const SubpathJob& job, std::size_t first, std::size_t k);
-    /// Gives the lane of the vertex just stored, which is plain, a place for its MatteEnd and `end_fewer`; false if the
-    /// vertex has no such end.
-    bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex, double merged);
-    /// Stores the matte ends of the whole block.
-    void store_matte_ends();
+    /// Gives the lane of the vertex just stored, which is plain, a place for its DiffuseEnd and `end_fewer`; false if
+    /// the vertex has no such end.
+    bool make_diffuse_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex, double merged);
+    /// Stores the diffuse ends of the whole block.
+    void store_diffuse_ends();
     /// Samples the BSDFs of the first `vertices` in `on_surface_`.
     void sample_bsdfs(std::size_t first, std::size_t vertices);
     bool scatter_in_medium(const SubpathJob& job, std::size_t i);
@@ -119,7 +119,7 @@ class SubpathWave {
     /// Tells the profile, if there is one, of the end of eye subpath `i`.
     void end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const;
     SubpathEnd end_;
-    bool makes_matte_ends_;
+    bool makes_diffuse_ends_;
     int bounce_ = 0;
     int roulette_depth_ = 1;
     // By active subpath; those that end are squeezed out after every bounce.
@@ -135,8 +135,8 @@ class SubpathWave {
     /// Holds places in the block of those on surfaces, then with vertices.
     std::array<std::uint8_t, kBlockLanes> on_surface_{};
     std::size_t surfaces_ = 0;
-    MatteLanes lanes_;
-    std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
+    DiffuseLanes lanes_;
+    std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose DiffuseEnd that is; kNoVertex if there is none
     std::array<bool, kBlockLanes> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_,

@@ -75,8 +75,8 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
     if (vertex.is_connectible && !path.ends_here)
         vertices_.list_connectible(state, state.edges + 1, static_cast<float>(merged));
     if (path.plain != nullptr) {
-        if (make_matte_end(job, path, vertex, merged))
-            vertex.matte = path.plain;
+        if (make_diffuse_end(job, path, vertex, merged))
+            vertex.diffuse = path.plain;
         else
             vertex.surface.emplace(*path.plain, lanes_.surface(path.lane));
     }
@@ -87,9 +87,10 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t first, std::siz
     return false;
 }
 
-bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex,
-                                 double merged) {
-    if (!makes_matte_ends_ || vertex.outside != nullptr || vertex.is_dispersed || job.world().traits().has_clear_bodies)
+bool SubpathWave::make_diffuse_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex,
+                                   double merged) {
+    if (!makes_diffuse_ends_ || vertex.outside != nullptr || vertex.is_dispersed ||
+        job.world().traits().has_clear_bodies)
         return false;
     // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
@@ -101,10 +102,10 @@ bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
     return true;
 }
 
-void SubpathWave::store_matte_ends() {
-    std::array<MatteEnd*, kBlockLanes> ends;
+void SubpathWave::store_diffuse_ends() {
+    std::array<DiffuseEnd*, kBlockLanes> ends;
     for (std::size_t lane = 0; lane < surfaces_; ++lane)
-        ends[lane] = ends_[lane] == PathVertex::kNoVertex ? nullptr : &vertices_.matte_end_at(ends_[lane]);
+        ends[lane] = ends_[lane] == PathVertex::kNoVertex ? nullptr : &vertices_.diffuse_end_at(ends_[lane]);
     lanes_.store_ends(std::span(ends).first(surfaces_));
 }
 

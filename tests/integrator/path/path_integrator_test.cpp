@@ -140,7 +140,7 @@ TEST(PathIntegrator, StrategiesAgreeOnManyLampsAndAnySurface) {
     MaterialDesc sheet = plastic;
     sheet.transmission = 0.5f;
     for (const auto& [name, wall] :
-         {std::pair{"matte", diffuse(Rgb(0.6f))}, std::pair{"plastic", plastic}, std::pair{"metal", metal},
+         {std::pair{"diffuse", diffuse(Rgb(0.6f))}, std::pair{"plastic", plastic}, std::pair{"metal", metal},
           std::pair{"anisotropic", anisotropic}, std::pair{"conductor", conductor}, std::pair{"sheet", sheet}}) {
         SceneDesc scene = empty_scene();
         add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, wall));

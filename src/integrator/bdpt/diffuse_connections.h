@@ -1,13 +1,13 @@
-// Connections of plain matte surfaces, each with its weight among the strategies and its ray.
+// Connections of plain diffuse surfaces, each with its weight among the strategies and its ray.
 //
-// The weights of strategy_sums.h in single precision: SubpathWave makes a MatteEnd only where floats hold the
-// densities. All but the connection itself is known beforehand of matte surfaces.
+// The weights of strategy_sums.h in single precision: SubpathWave makes a DiffuseEnd only where floats hold the
+// densities. All but the connection itself is known beforehand of diffuse surfaces.
 #pragma once
 
 #include "light/mesh_light.h"
 #include "transport/connecting_ray.h"
 #include "transport/strategy_sums.h"
-#include "wave/subpath/matte_end.h"
+#include "wave/subpath/diffuse_end.h"
 
 namespace etendue {
 
@@ -35,7 +35,7 @@ struct WeightRule {
 
 /// Holds a connection with its weight and ray; a template of its lane type, see core/lane.h.
 template <typename T>
-struct MatteConnection {
+struct DiffuseConnection {
     BasicRgb<T> contribution;  ///< if nothing is in the way; black where nothing would be scattered
     T weight;                  ///< that it includes
     ConnectingRay<T> ray;      ///< from the origin of the end on the eye's side, otherwise from that of the light's
@@ -44,8 +44,8 @@ struct MatteConnection {
 /// Returns the connection of the ends of both subpaths, which stands for `scale` connections; `merged` is what
 /// SubpathDensities::merged says of the eye's end, or 0 if the light has come by no delta.
 template <typename T>
-[[nodiscard]] inline MatteConnection<T> connect_ends(const WeightRule& rule, const BasicMatteEnd<T>& eye,
-                                                     const BasicMatteEnd<T>& light, T merged, T scale) {
+[[nodiscard]] inline DiffuseConnection<T> connect_ends(const WeightRule& rule, const BasicDiffuseEnd<T>& eye,
+                                                       const BasicDiffuseEnd<T>& light, T merged, T scale) {
     const Imath::Vec3<T> to_light = light.position - eye.position;
     const T squared = length_squared(to_light);
     const Imath::Vec3<T> w = to_light * (1.0f / sqrt(squared));
@@ -61,11 +61,11 @@ template <typename T>
 /// the light for `eye`, `choice_ratio` that of both light and triangle for an emission over that for `eye`; emission is
 /// aimed by `aim`.
 template <typename T>
-[[nodiscard]] inline MatteConnection<T> connect_to_triangle(const WeightRule& rule, const BasicMatteEnd<T>& eye,
-                                                            const LightTriangleFront<T>& front,
-                                                            const LightTriangleSample<T>& light,
-                                                            const BasicRgb<T>& radiance, T probability, T choice_ratio,
-                                                            const LightAim& aim) {
+[[nodiscard]] inline DiffuseConnection<T> connect_to_triangle(const WeightRule& rule, const BasicDiffuseEnd<T>& eye,
+                                                              const LightTriangleFront<T>& front,
+                                                              const LightTriangleSample<T>& light,
+                                                              const BasicRgb<T>& radiance, T probability,
+                                                              T choice_ratio, const LightAim& aim) {
     const T pdf = light.pdf_solid_angle * probability;
     T emission_pdf = front.emission_pdf_solid_angle(light.cos_light);
     if (!aim.empty())
@@ -81,9 +81,9 @@ template <typename T>
 /// Returns the connection of `light` to the point `lens`, which lies along `w` and sees this end of a light subpath
 /// with `importance` per area, 1/m²; `samples_per_path` is MisContext::samples_per_light_path.
 template <typename T>
-[[nodiscard]] inline MatteConnection<T> connect_to_lens(const WeightRule& rule, const BasicMatteEnd<T>& light,
-                                                        const Imath::Vec3<T>& lens, const Imath::Vec3<T>& w,
-                                                        T importance, float samples_per_path) {
+[[nodiscard]] inline DiffuseConnection<T> connect_to_lens(const WeightRule& rule, const BasicDiffuseEnd<T>& light,
+                                                          const Imath::Vec3<T>& lens, const Imath::Vec3<T>& w,
+                                                          T importance, float samples_per_path) {
     const T from_eye = samples_per_path * importance * light.cosine(w);
     const T weight = rule.weight(from_eye, light.fewer, T(0.0f), T(0.0f));
     return {select(light.cosine(w) > T(0.0f), light.importance(w) * (importance * weight), BasicRgb<T>()), weight,

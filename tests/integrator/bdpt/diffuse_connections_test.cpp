@@ -1,8 +1,8 @@
-#include "integrator/bdpt/matte_connections.h"
+#include "integrator/bdpt/diffuse_connections.h"
 
 #include "integrator/bdpt/connection_lanes.h"
 #include "support/random.h"
-#include "wave/subpath/matte_lanes.h"
+#include "wave/subpath/diffuse_lanes.h"
 #include "wave/subpath/path_vertex.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace etendue::test {
 namespace {
 
 constexpr std::size_t kCount = kBlockLanes - 3;
-constexpr Rgb kMatteAlbedo(0.7f, 0.5f, 0.3f);
+constexpr Rgb kDiffuseAlbedo(0.7f, 0.5f, 0.3f);
 
 /// Of a number that may be large; grazing directions, where roundings decide, are left out by the caller.
 bool is_near(float value, float expected) {
@@ -29,13 +29,13 @@ bool is_near(const Rgb& value, const Rgb& expected) {
     return is_near(value.r, expected.r) && is_near(value.g, expected.g) && is_near(value.b, expected.b);
 }
 
-/// A vertex on a matte surface, with what all others go through, and what lanes have of it.
+/// A vertex on a diffuse surface, with what all others go through, and what lanes have of it.
 struct BothEnds {
     PathVertex vertex;
-    MatteEnd end;
+    DiffuseEnd end;
 };
 
-class MatteConnectionsIn : public testing::TestWithParam<Heuristic> {
+class DiffuseConnectionsIn : public testing::TestWithParam<Heuristic> {
   protected:
     Vec3f vec() { return Vec3f(random_.next(), random_.next(), random_.next()) * 2.0f - Vec3f(1.0f); }
     /// Of any of `count` orders of magnitude, around 1.
@@ -43,16 +43,16 @@ class MatteConnectionsIn : public testing::TestWithParam<Heuristic> {
 
     /// As subpaths make them.
     std::array<BothEnds, kCount> make_ends(TransportMode mode) {
-        MatteLanes lanes;
+        DiffuseLanes lanes;
         std::array<BothEnds, kCount> ends;
-        std::array<MatteEnd*, kCount> places;
+        std::array<DiffuseEnd*, kCount> places;
         for (std::size_t l = 0; l < kCount; ++l) {
             HitTriangle triangle{vec(), vec(), vec(), Vec3f(0.0f)};
             // Every other one is smooth: its normal leans away from that of the triangle.
             if (l % 2 != 0) triangle.shading_normal = normalize(cross(triangle.edge1, triangle.edge2)) + vec() * 0.3f;
             lanes.set_hit(l, triangle, {0.5f * random_.next(), 0.5f * random_.next()});
             lanes.wo.set(l, normalize(vec()));
-            lanes.albedo.set(l, kMatteAlbedo);
+            lanes.albedo.set(l, kDiffuseAlbedo);
             PathVertex& vertex = ends[l].vertex;
             vertex.throughput = {random_.next(), random_.next(), random_.next()};
             vertex.densities = {static_cast<double>(any_magnitude(6.0f)), static_cast<double>(any_magnitude(6.0f))};
@@ -66,7 +66,7 @@ class MatteConnectionsIn : public testing::TestWithParam<Heuristic> {
             vertex.wo = lanes.wo[l];
             vertex.geometric_normal = lanes.geometric_normal[l];
             vertex.clearance = lanes.clearance[l];
-            vertex.surface.emplace(matte_, lanes.surface(l));
+            vertex.surface.emplace(diffuse_, lanes.surface(l));
             lanes.end_fewer.set(
                 l, static_cast<float>(vertex.densities.fewer(raised_, static_cast<double>(lanes.reverse_pdf[l]))));
             places[l] = &ends[l].end;
@@ -89,12 +89,12 @@ class MatteConnectionsIn : public testing::TestWithParam<Heuristic> {
     }
 
     Random random_{47};
-    Bsdf matte_ = Diffuse{kMatteAlbedo};
+    Bsdf diffuse_ = Diffuse{kDiffuseAlbedo};
     Raised raised_{GetParam()};
     WeightRule rule_{raised_, true};
 };
 
-TEST_P(MatteConnectionsIn, JoinSubpathsAsOneByOne) {
+TEST_P(DiffuseConnectionsIn, JoinSubpathsAsOneByOne) {
     BetweenLanes lanes;
     int connected = 0;
     for (int block = 0; block < 200; ++block) {
@@ -133,7 +133,7 @@ TEST_P(MatteConnectionsIn, JoinSubpathsAsOneByOne) {
     EXPECT_GT(connected, 1'000);
 }
 
-TEST_P(MatteConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
+TEST_P(DiffuseConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
     ToLightLanes lanes;
     const LightAim aim({{{0.5f, 0.5f, -0.5f}, 0.2f}, {{-4.0f, 1.0f, 2.0f}, 1.0f}});
     int lit = 0;
@@ -182,7 +182,7 @@ TEST_P(MatteConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
     EXPECT_GT(lit, 1'000);
 }
 
-TEST_P(MatteConnectionsIn, ReachTheLensAsOneByOne) {
+TEST_P(DiffuseConnectionsIn, ReachTheLensAsOneByOne) {
     constexpr float kSamplesPerPath = 300.0f;
     ToCameraLanes lanes;
     int seen = 0;
@@ -219,7 +219,7 @@ TEST_P(MatteConnectionsIn, ReachTheLensAsOneByOne) {
     EXPECT_GT(seen, 1'000);
 }
 
-TEST_P(MatteConnectionsIn, CountInFullIfUnweighted) {
+TEST_P(DiffuseConnectionsIn, CountInFullIfUnweighted) {
     rule_.weighted = false;
     const auto eyes = make_ends(TransportMode::Radiance);
     const auto lights = make_ends(TransportMode::Importance);
@@ -228,12 +228,12 @@ TEST_P(MatteConnectionsIn, CountInFullIfUnweighted) {
 }
 
 // Vertices that lie in each other have densities beyond what floats hold.
-TEST_P(MatteConnectionsIn, AreNumbersAtAnyDistance) {
+TEST_P(DiffuseConnectionsIn, AreNumbersAtAnyDistance) {
     auto eyes = make_ends(TransportMode::Radiance);
     auto lights = make_ends(TransportMode::Importance);
     for (std::size_t l = 0; l < kCount; ++l) {
-        MatteEnd& eye = eyes[l].end;
-        MatteEnd& light = lights[l].end;
+        DiffuseEnd& eye = eyes[l].end;
+        DiffuseEnd& light = lights[l].end;
         // Face to face.
         eye.geometric_normal = eye.normal;
         light.geometric_normal = light.normal = -eye.normal;
@@ -247,7 +247,7 @@ TEST_P(MatteConnectionsIn, AreNumbersAtAnyDistance) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Heuristics, MatteConnectionsIn, testing::Values(Heuristic::Power, Heuristic::Balance),
+INSTANTIATE_TEST_SUITE_P(Heuristics, DiffuseConnectionsIn, testing::Values(Heuristic::Power, Heuristic::Balance),
                          [](const auto& heuristic) {
                              return heuristic.param == Heuristic::Power ? "Power" : "Balance";
                          });

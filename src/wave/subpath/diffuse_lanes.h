@@ -1,8 +1,8 @@
-// What plain matte surfaces make of a block of subpaths.
+// What plain diffuse surfaces make of a block of subpaths.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
-#include "wave/subpath/matte_end.h"
+#include "wave/subpath/diffuse_end.h"
 #include "wave/surface_lanes.h"
 #include "world/oriented_surface.h"
 
@@ -11,8 +11,8 @@
 
 namespace etendue {
 
-/// Holds a block of subpaths on plain matte surfaces: about 16 KiB, which stay in the first-level cache.
-struct MatteLanes : SurfaceLanes {
+/// Holds a block of subpaths on plain diffuse surfaces: about 16 KiB, which stay in the first-level cache.
+struct DiffuseLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;
     RgbColumns throughput;  ///< that arrives
@@ -21,7 +21,7 @@ struct MatteLanes : SurfaceLanes {
     Vec3Columns facing_normal;
     Column reverse_pdf;  ///< density of turning back, 1/sr, wherever the walk comes from
 
-    // What MatteEnd has besides.
+    // What DiffuseEnd has besides.
     Vec3Columns end_origin;
     RgbColumns end_weight;
     Column end_fewer;  ///< set by the caller
@@ -44,7 +44,7 @@ struct MatteLanes : SurfaceLanes {
     /// Samples the lobes, from `albedo` and `u`, which now holds numbers for directions.
     void sample(std::size_t count, TransportMode mode);
     /// Writes the end of each lane to where `ends` has its place; null if it has none.
-    void store_ends(std::span<MatteEnd* const> ends) const;
+    void store_ends(std::span<DiffuseEnd* const> ends) const;
 };
 
 }  // namespace etendue

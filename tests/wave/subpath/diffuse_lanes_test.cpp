@@ -1,4 +1,4 @@
-#include "wave/subpath/matte_lanes.h"
+#include "wave/subpath/diffuse_lanes.h"
 
 #include "core/ray.h"
 #include "support/random.h"
@@ -15,15 +15,15 @@ namespace etendue::test {
 
 namespace {
 
-class MatteLanesIn : public testing::TestWithParam<TransportMode> {};
+class DiffuseLanesIn : public testing::TestWithParam<TransportMode> {};
 
 // The reference is what all other surfaces go through.
-TEST_P(MatteLanesIn, ScatterAsThatOneSurfaceDoes) {
+TEST_P(DiffuseLanesIn, ScatterAsThatOneSurfaceDoes) {
     const TransportMode mode = GetParam();
     Random random(31);
     const auto vec = [&] { return Vec3f(random.next(), random.next(), random.next()) * 2.0f - Vec3f(1.0f); };
     constexpr std::size_t kCount = kBlockLanes - 3;
-    MatteLanes lanes;
+    DiffuseLanes lanes;
     int scattered = 0;
     for (int block = 0; block < 200; ++block) {
         std::array<HitTriangle, kCount> triangles;
@@ -70,13 +70,13 @@ TEST_P(MatteLanesIn, ScatterAsThatOneSurfaceDoes) {
     EXPECT_GT(scattered, 5'000);
 }
 
-TEST(MatteLanes, StoreTheEndsOfThoseThatHaveOne) {
+TEST(DiffuseLanes, StoreTheEndsOfThoseThatHaveOne) {
     Random random(59);
     const auto vec = [&] { return Vec3f(random.next(), random.next(), random.next()); };
     constexpr std::size_t kCount = kBlockLanes - 3;
-    MatteLanes lanes;
-    std::array<MatteEnd, kBlockLanes> ends;
-    std::array<MatteEnd*, kCount> places;
+    DiffuseLanes lanes;
+    std::array<DiffuseEnd, kBlockLanes> ends;
+    std::array<DiffuseEnd*, kCount> places;
     for (std::size_t l = 0; l < kCount; ++l) {
         lanes.position.set(l, vec());
         lanes.end_origin.set(l, vec());
@@ -89,7 +89,7 @@ TEST(MatteLanes, StoreTheEndsOfThoseThatHaveOne) {
     }
     lanes.store_ends(places);
     for (std::size_t l = 0; l < kBlockLanes; ++l) {
-        const MatteEnd& end = ends[kBlockLanes - 1 - l];
+        const DiffuseEnd& end = ends[kBlockLanes - 1 - l];
         ASSERT_EQ(end.exists(), l < kCount && l % 4 != 1) << l;
         if (!end.exists()) continue;
         EXPECT_EQ(end.position, lanes.position[l]);
@@ -101,7 +101,7 @@ TEST(MatteLanes, StoreTheEndsOfThoseThatHaveOne) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, MatteLanesIn, testing::Values(TransportMode::Radiance, TransportMode::Importance),
+INSTANTIATE_TEST_SUITE_P(Modes, DiffuseLanesIn, testing::Values(TransportMode::Radiance, TransportMode::Importance),
                          [](const auto& mode) {
                              return mode.param == TransportMode::Radiance ? "Radiance" : "Importance";
                          });

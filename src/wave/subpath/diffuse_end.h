@@ -1,4 +1,4 @@
-// What connections need of a vertex on a plain matte surface: little enough for one cache line, and the same whatever
+// What connections need of a vertex on a plain diffuse surface: little enough for one cache line, and the same whatever
 // the vertex is connected to, so that many connections are computed at once.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace etendue {
 
 /// Holds what connections need of a vertex; a template of its lane type, see core/lane.h.
 template <typename T>
-struct BasicMatteEnd {
+struct BasicDiffuseEnd {
     using Vec = Imath::Vec3<T>;
 
     Vec position;          ///< metres
@@ -28,7 +28,7 @@ struct BasicMatteEnd {
     /// normal leans (bsdf/leaning_normal.h), for importance also times OrientedSurface::received. Black where nothing
     /// scatters.
     BasicRgb<T> weight;
-    /// SubpathDensities::fewer. A matte surface turns back to the vertex before with the same density wherever light
+    /// SubpathDensities::fewer. A diffuse surface turns back to the vertex before with the same density wherever light
     /// comes from, so that nothing of it is left open.
     T fewer;
 
@@ -36,7 +36,7 @@ struct BasicMatteEnd {
     [[nodiscard]] T cosine(const Vec& w) const { return dot(w, geometric_normal); }
     /// Throughput times f |cos| towards `w`, of a subpath from the eye.
     [[nodiscard]] BasicRgb<T> radiance(const Vec& w) const { return weight * (max(T(0.0f), dot(w, normal)) * kInvPi); }
-    /// Density, 1/sr, with which a subpath from the eye goes on along `w` (matte_pdf_for_eye).
+    /// Density, 1/sr, with which a subpath from the eye goes on along `w` (diffuse_pdf_for_eye).
     [[nodiscard]] T radiance_pdf(const Vec& w) const {
         const T direct = dot(w, normal);
         const T mirrored = direct - T(2.0f) * cosine(w) * dot(normal, geometric_normal);
@@ -44,25 +44,25 @@ struct BasicMatteEnd {
     }
     /// Throughput times f |cos| towards `w`, of a subpath from a light.
     [[nodiscard]] BasicRgb<T> importance(const Vec& w) const { return weight * importance_pdf(w); }
-    /// Density, 1/sr, with which a subpath from a light goes on along `w` (matte_pdf_for_light).
+    /// Density, 1/sr, with which a subpath from a light goes on along `w` (diffuse_pdf_for_light).
     [[nodiscard]] T importance_pdf(const Vec& w) const { return cosine(w) * kInvPi; }
 };
 
 /// Holds in one cache line what connections need of one vertex.
-struct alignas(64) MatteEnd : BasicMatteEnd<float> {
+struct alignas(64) DiffuseEnd : BasicDiffuseEnd<float> {
     /// Stands in place of `fewer`, which is never negative, where there is no such end.
     static constexpr float kNone = -1.0f;
 
-    MatteEnd()
-        : BasicMatteEnd<float>{.position{}, .origin{}, .normal{}, .geometric_normal{}, .weight{}, .fewer = kNone} {}
+    DiffuseEnd()
+        : BasicDiffuseEnd<float>{.position{}, .origin{}, .normal{}, .geometric_normal{}, .weight{}, .fewer = kNone} {}
 
     [[nodiscard]] bool exists() const { return fewer >= 0.0f; }
 };
 
-static_assert(sizeof(MatteEnd) == kRowFloats * sizeof(float));
+static_assert(sizeof(DiffuseEnd) == kRowFloats * sizeof(float));
 
 /// Returns `ends` as one, each in a lane of its own.
-[[nodiscard]] inline BasicMatteEnd<Wide> load_ends(const std::array<const MatteEnd*, Wide::kWidth>& ends) {
+[[nodiscard]] inline BasicDiffuseEnd<Wide> load_ends(const std::array<const DiffuseEnd*, Wide::kWidth>& ends) {
     std::array<const float*, Wide::kWidth> rows;
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = &ends[i]->position.x;
     const WideRow row = load_rows(rows);
@@ -75,7 +75,7 @@ static_assert(sizeof(MatteEnd) == kRowFloats * sizeof(float));
 }
 
 /// Stores each lane of `from` in its place of `ends`.
-inline void store_ends(const BasicMatteEnd<Wide>& from, const std::array<MatteEnd*, Wide::kWidth>& ends) {
+inline void store_ends(const BasicDiffuseEnd<Wide>& from, const std::array<DiffuseEnd*, Wide::kWidth>& ends) {
     const auto& [position, origin, normal, geometric_normal, weight, fewer] = from;
     std::array<float*, Wide::kWidth> rows;
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = &ends[i]->position.x;
@@ -85,19 +85,19 @@ inline void store_ends(const BasicMatteEnd<Wide>& from, const std::array<MatteEn
 }
 
 /// Ends of connections of a block, where they lie.
-class MatteEndsOfBlock {
+class DiffuseEndsOfBlock {
   public:
-    void set(std::size_t lane, const MatteEnd& end) { ends_[lane] = &end; }
+    void set(std::size_t lane, const DiffuseEnd& end) { ends_[lane] = &end; }
     /// Loads lanes from `first` on; those from `count` on repeat the last lane before, as they may have been set for a
     /// block whose ends are gone.
-    [[nodiscard]] BasicMatteEnd<Wide> load(std::size_t first, std::size_t count) const {
-        std::array<const MatteEnd*, Wide::kWidth> ends;
+    [[nodiscard]] BasicDiffuseEnd<Wide> load(std::size_t first, std::size_t count) const {
+        std::array<const DiffuseEnd*, Wide::kWidth> ends;
         for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = ends_[std::min(first + i, count - 1)];
         return load_ends(ends);
     }
 
   private:
-    std::array<const MatteEnd*, kBlockLanes> ends_{};
+    std::array<const DiffuseEnd*, kBlockLanes> ends_{};
 };
 
 }  // namespace etendue
