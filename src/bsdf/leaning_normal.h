@@ -36,11 +36,11 @@ struct LeaningNormal {
         return {wo.x, wo.y, copysign(max(abs(wo.z), T(kLeastCosine)), side(wo))};
     }
     /// Returns the factor by which a cosine lobe grows for the share of it that the surface hides.
-    [[nodiscard]] T diffuse_gain() const { return T(2.0f) / (T(1.0f) + max(T(0.0f), geometric.z)); }
+    [[nodiscard]] T cosine_gain() const { return T(2.0f) / (T(1.0f) + max(T(0.0f), geometric.z)); }
     /// Returns that factor for the diffuse lobe under a specular layer, which is narrower and loses less.
     [[nodiscard]] T diffuse_gain() const {
         constexpr float kNarrower = 0.95f;  // the brightest white surface reflects 1.004; by 1 it would be 1.007
-        return T(1.0f) + T(kNarrower) * (diffuse_gain() - T(1.0f));
+        return T(1.0f) + T(kNarrower) * (cosine_gain() - T(1.0f));
     }
 
     /// Evaluates the lobe towards `wi` for a walk from the eye. `lobe(w)` returns its parts (BasicBsdfParts) towards

@@ -57,12 +57,6 @@ struct Merging {
     [[nodiscard]] double expected(const Vec3f& point, float opacity) const {
         return static_cast<double>(opacity) * expected_within(radius(point));
     }
-    /// Returns the raised density of all ways but a merge over that of the merge, where the recursion of both sides
-    /// sums up to `ratio`.
-    [[nodiscard]] double others(double ratio) const {
-        // Where all vertices merge, both sides have counted this one.
-        return at == MergeAt::Everywhere ? std::max(0.0, ratio - 2.0) : ratio;
-    }
 };
 
 class World;

@@ -196,15 +196,19 @@ struct ArrivalForMerging {
     return false;
 }
 
+/// Returns what `a` holds of the merge at a vertex itself, at `position` on a surface that stops the share `opacity`:
+/// something only where all vertices merge.
+[[nodiscard]] inline double own_merge(const MisContext& mis, const Vec3f& position, float opacity) {
+    return mis.merging.at == MergeAt::Everywhere ? mis.raised(mis.merging.expected(position, opacity)) : 0.0;
+}
+
 /// Adds to `arrived` what the weights need of a vertex at `position` at which a subpath from `end` merges, on a surface
 /// that stops the share `opacity`.
 inline void count_merge(const MisContext& mis, SubpathEnd end, const Vec3f& position, float opacity,
                         SubpathDensities& arrived) {
-    const double expected = mis.raised(mis.merging.expected(position, opacity));
-    if (mis.merging.at == MergeAt::Everywhere)
-        arrived.a += expected;
-    else if (end == SubpathEnd::AtEye)
-        arrived.merge_a = expected;
+    arrived.a += own_merge(mis, position, opacity);
+    if (mis.merging.at == MergeAt::SeenByDeltas && end == SubpathEnd::AtEye)
+        arrived.merge_a = mis.raised(mis.merging.expected(position, opacity));
 }
 
 /// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.

@@ -35,6 +35,8 @@ constexpr float kLeastCell = 1.0f / 64.0f;
 /// Gives the distance of the rays whose difference is the derivative, in sizes of the cell, or of a pixel if that is
 /// smaller.
 constexpr float kDifference = 0.02f;
+/// Bounds that distance from below, in widths of the image: sixteen steps of floats.
+constexpr float kLeastDifference = 0x1p-19f;
 /// Multiplies how far the derivative says that the way moves within a cell, as the way to the lamp is curved.
 constexpr float kMargin = 1.5f;
 /// Multiplies the margin for cells of several pixels.
@@ -152,12 +154,14 @@ class ImageFinder {
     }
     [[nodiscard]] Shows look_through(const FilmCell& cell) {
         const Vec2f middle = cell.middle();
-        const float difference = kDifference * std::min(cell.size, 1.0f);
+        const float difference =
+            std::max(kDifference * std::min(cell.size, 1.0f), kLeastDifference * static_cast<float>(whole_.full_width));
+        const Vec2f beside = middle + Vec2f(difference);
         const float margin = cell.size > 1.0f ? kMargin * kBlockMargin : kMargin;
         find_ends(middle, ends_);
         if (ends_.empty()) return Shows::Nothing;
-        find_ends(middle + Vec2f(difference, 0.0f), ends_right_);
-        find_ends(middle + Vec2f(0.0f, difference), ends_below_);
+        find_ends({beside.x, middle.y}, ends_right_);
+        find_ends({middle.x, beside.y}, ends_below_);
         Shows shows = Shows::Nothing;
         for (const DeltaEnd& end : ends_) {
             const DeltaEnd* const right = find(ends_right_, end.way);
@@ -166,9 +170,9 @@ class ImageFinder {
             for (const LampSphere& lamp : lamps_) {
                 if (!(dot(lamp.middle - end.origin, end.direction) > 0.0f)) continue;
                 const Vec3f miss = missed_by(end, end, lamp);
-                const float dx = length(missed_by(*right, end, lamp) - miss);
-                const float dy = length(missed_by(*below, end, lamp) - miss);
-                const float sweep = std::hypot(dx, dy) / difference;  // metres per pixel
+                const float dx = length(missed_by(*right, end, lamp) - miss) / (beside.x - middle.x);
+                const float dy = length(missed_by(*below, end, lamp) - miss) / (beside.y - middle.y);
+                const float sweep = std::hypot(dx, dy);  // metres per pixel
                 const float within = margin * sweep * cell.size * std::numbers::sqrt2_v<float> / 2.0f;
                 const float most_width = end.throughput > kLikely ? kMostWidth : kMostUnlikelyWidth;
                 if (!(length(miss) <= lamp.radius + within) || lamp.radius > most_width * sweep) continue;

@@ -24,7 +24,7 @@ template <typename T>
 [[nodiscard]] inline BasicBsdfValue<T> evaluate_diffuse(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
                                                         const Imath::Vec3<T>& w, TransportMode mode) {
     const LeaningNormal<T>& leaning = surface.leaning;
-    const BasicRgb<T> albedo = lobe.albedo * leaning.diffuse_gain();
+    const BasicRgb<T> albedo = lobe.albedo * leaning.cosine_gain();
     if (mode == TransportMode::Importance) {
         const T pdf = diffuse_pdf_for_light(leaning, w);
         return {albedo * (surface.received() * pdf), pdf};

@@ -15,7 +15,7 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
             settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
     if (settings_.strategy == kMerges && !may_merge(world))
-        sentences.emplace_back("the image stays black: no vertices merge; '--merge all' merges everywhere");
+        sentences.emplace_back("the image stays black: no vertices merge; 'vcm' with '--merge all' merges everywhere");
     const bool needs_mirrors = settings_.merging.at == MergeAt::SeenByDeltas;
     const int merged_edges = needs_mirrors ? 4 : 2;
     if (settings_.strategy == kMerges && may_merge(world) && merged_edges > settings_.lengths.max_depth)
@@ -42,7 +42,9 @@ std::vector<std::string> BdptIntegrator::ineffective_options(const World& world)
                         settings_.cached_connections));
     const MergeSettings usual;
     const bool asks_for_radius = settings_.merging.radius != usual.radius || settings_.merging.alpha != usual.alpha;
-    if (asks_for_radius && (!may_merge(world) || settings_.strategy.value_or(kMerges) != kMerges))
+    // The weight of every other strategy, too, depends on the radius.
+    const bool uses_radius = settings_.weighted || settings_.strategy == kMerges;
+    if (asks_for_radius && (!may_merge(world) || !uses_radius))
         sentences.emplace_back("--merge-radius and --merge-alpha have no effect: no vertices merge");
     return sentences;
 }
@@ -70,6 +72,7 @@ std::unique_ptr<const LampImages> BdptIntegrator::lamp_images(const World& world
 
 void BdptIntegrator::trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch,
                                    PhotonList& photons, RenderCounters& counters) const {
+    if (settings_.strategy.value_or(kMerges) != kMerges) return;  // nobody would look for them
     auto& wave = static_cast<BdptWave&>(scratch);
     const std::size_t total = camera_sample_count(job);
     for (std::size_t first = 0; first < total; first += BdptWave::kCapacity)

@@ -22,7 +22,7 @@ void DiffuseLanes::orient(std::size_t count, TransportMode mode) {
         end_origin.store(
             l, offset_origin(position.load(l), faced.geometric_normal, clearance.load(l), faced.geometric_normal));
         const Wide received = is_eye ? Wide(1.0f) : faced.received();
-        end_weight.store(l, throughput.load(l) * albedo.load(l) * (received * faced.leaning.diffuse_gain()));
+        end_weight.store(l, throughput.load(l) * albedo.load(l) * (received * faced.leaning.cosine_gain()));
     }
 }
 

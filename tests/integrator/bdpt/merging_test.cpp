@@ -97,6 +97,22 @@ TEST(Merging, FindsWhatASpotSendsThroughAPlateTwice) {
     EXPECT_EQ(mean(MergeAt::Nothing), 0.0);
 }
 
+// Kernels grow with the distance, so that on a slope a photon has another radius than the vertex that it merges with.
+TEST(Merging, WeightsEverywhereSumToOneOnASlope) {
+    SceneDesc scene = empty_scene();
+    scene.cameras[0].yfov = 0.5f;
+    const Vec3f up_the_slope = Vec3f(0.0f, 0.5f, -std::sqrt(0.75f));
+    add_object(scene, quad({0.0f, 0.5f, -3.87f}, {2, 0, 0}, up_the_slope * 3.0f),
+               add_material(scene, diffuse(Rgb(0.5f))));
+    scene.lights.push_back(light(LightType::Directional, 10.0f, Mat4f()));
+    const IntegratorSettings settings{.lengths = {.max_depth = 2},
+                                      .merging = {.at = MergeAt::Everywhere, .radius = 100.0}};
+    const double expected = 10.0 * 0.5 * 0.5 / std::numbers::pi;
+    // By its own radius on both sides, a merge would count as 0.9 of itself here.
+    EXPECT_NEAR(mean_of_render(compile(std::move(scene)), BdptIntegrator(settings), 64, 64), expected,
+                0.015 * expected);
+}
+
 IntegratorSettings merges_alone(bool weighted) {
     return {.lengths = {.max_depth = 6}, .strategy = kMerges, .weighted = weighted};
 }

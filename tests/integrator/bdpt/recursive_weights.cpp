@@ -234,8 +234,11 @@ class GivenPath {
         const double fewer =
             light_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.pdf_solid_angle)) +
             eye_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
-        const double expected = mis_.merging.expected(path_.inner[i]->position, eye_.vertices[i].merging.opacity);
-        return 1.0 / (1.0 + mis_.merging.others(fewer / mis_.raised(expected)));
+        const Vec3f& position = path_.inner[i]->position;
+        const double own = own_merge(mis_, position, light_.vertices[i].merging.opacity) +
+                           own_merge(mis_, position, eye_.vertices[i].merging.opacity);
+        const double expected = mis_.merging.expected(position, eye_.vertices[i].merging.opacity);
+        return 1.0 / (1.0 + std::max(0.0, fewer - own) / mis_.raised(expected));
     }
 
     const MisContext& mis_;
