@@ -146,7 +146,7 @@ TEST(UnreachableLight, MergingSaysWhatItsOptionsLeaveOut) {
     const char* const no_effect = "--merge-radius and --merge-alpha have no effect: no vertices merge\n";
     EXPECT_EQ(vcm_says(world, {.merging = wide}), "");
     EXPECT_EQ(vcm_says(world, {.strategy = Strategy{2, 2}, .merging = wide}), "") << "its weight depends on it";
-    EXPECT_EQ(vcm_says(world, {.strategy = Strategy{2, 2}, .merging = wide, .weighted = false}), no_effect);
+    EXPECT_EQ(vcm_says(world, {.strategy = Strategy{2, 2}, .weighted = false, .merging = wide}), no_effect);
     EXPECT_EQ(vcm_says(compile(wall_and_lamp()), {.merging = wide}), no_effect);
 
     const auto alone = [&](int max_depth, MergeAt at) {

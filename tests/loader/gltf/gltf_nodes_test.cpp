@@ -248,6 +248,9 @@ TEST(Cameras, TakeTheirNodesTransformWithoutScale) {
          {"orthographic", {{"xmag", 4}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}}};
     const LoadedScene loaded = builder.load();
     ASSERT_EQ(loaded.scene.cameras.size(), 3u) << listing(loaded.problems);
+    EXPECT_FALSE(has_problem(loaded.problems, Severity::Note, "mirrors its camera"));
+    builder.json["nodes"][1]["scale"] = {-3, 3, 3};
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Note, "mirrors its camera", "/nodes/1"));
     const CameraDesc& perspective = loaded.scene.cameras[0];
     EXPECT_EQ(perspective.name, "node");
     EXPECT_FLOAT_EQ(perspective.yfov, 0.5f);
