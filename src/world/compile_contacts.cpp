@@ -104,6 +104,19 @@ std::vector<Slot> all_slots(const WorldData& data) {
     return slots;
 }
 
+/// Fills WorldData::size_of_slot.
+void measure_slots(WorldData& data) {
+    const std::vector<Slot> slots = all_slots(data);
+    data.size_of_slot.resize(slots.size());
+    for (const Slot& slot : slots) {
+        const Instance& instance = data.instances[slot.instance];
+        Bounds bounds;
+        for (const Vec3f& p : data.geometries[slot.geometry].positions)
+            bounds.extend(instance.baked ? p : transform_point(instance.to_world, p));
+        data.size_of_slot[slot.index] = bounds.empty() ? 0.0f : length(bounds.size());
+    }
+}
+
 bool moves(const WorldData& data, const Slot& slot) {
     return data.instances[slot.instance].motion != kNone || !data.geometries[slot.geometry].motion.empty();
 }
@@ -191,7 +204,7 @@ std::vector<Vec3f> planes_through(const WorldData& data, const Vec3f& point) {
         const PlacedTriangle triangle = place(data, instance, geometry, t);
         if (triangle.is_degenerate()) return true;
         const Vec3f normal(triangle.normal);
-        const double distance = contact_distance(triangle.clearance, static_cast<double>(clearance(normal, error)));
+        const double distance = touching_distance(triangle.clearance, static_cast<double>(clearance(normal, error)));
         if (!is_near(triangle, Vec3d(point), distance)) return true;
         const Vec3f plane(triangle.normal * distance);
         const auto same = std::ranges::find_if(planes, [&](const Vec3f& other) {
@@ -219,6 +232,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
                            .culls_back = material.culls_back});
     }
     data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
+    measure_slots(data);
     Touches touches = find_touches(data, threads);
     if (move_sheets_apart(touches, data)) {
         data.bvh.reset();  // memory need not hold both
@@ -256,8 +270,8 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
             contacts[slot.index].is_anywhere = true;
             if (emits(slot.index)) data.shares_place_of_slot[slot.index] = 1;  // it may
             for (std::uint32_t t = 0; t < touching_triangles(data.geometries[slot.geometry]); ++t) {
-                const float clear = triangle_plane(data, slot.instance, slot.geometry, t).clearance;
-                contacts[slot.index].reach = std::max(contacts[slot.index].reach, contact_distance(clear, clear));
+                const TrianglePlane plane = triangle_plane(data, slot.instance, slot.geometry, t);
+                contacts[slot.index].reach = std::max(contacts[slot.index].reach, contact_distance(plane, plane));
             }
         }
     }

@@ -99,15 +99,16 @@ class TouchFinder {
             const Instance& instance = data_.instances[surface.slot.instance];
             for (const Vec3f& p : data_.geometries[surface.slot.geometry].positions)
                 surface.bounds.extend(placed(instance, p));
-            grow(surface.bounds);
+            grow(surface.bounds, surface.slot);
         }
         return true;
     }
 
-    /// Grows a box by a few times what rounding may move anything in it.
-    static void grow(Bounds& bounds) {
+    /// Grows a box around a part of the surface `slot` by a few times what rounding may move anything in it.
+    void grow(Bounds& bounds, const Slot& slot) const {
         const Vec3f extent = max_components(abs_components(bounds.min), abs_components(bounds.max));
-        const float most = 16.0f * clearance(Vec3f(1.0f), position_error(extent));
+        const float size = data_.size_of_slot[slot.index];
+        const float most = 16.0f * clearance(Vec3f(1.0f), position_error(extent)) + 4.0f * kPositionError * size;
         bounds = {bounds.min - Vec3f(most), bounds.max + Vec3f(most)};
     }
 
@@ -208,7 +209,7 @@ class TouchFinder {
         double visits = 0.0;
         for (std::uint32_t t = 0; t < surface.triangles; ++t) {
             Bounds triangle = bounds_of(data_.instances[surface.slot.instance], surface.slot.geometry, t);
-            grow(triangle);
+            grow(triangle, surface.slot);
             if (!overlap(triangle, bounds)) continue;
             found.push_back({t, triangle});
             visits += kOfAnyQuery + static_cast<double>(all_triangles_) *
@@ -285,7 +286,7 @@ class TouchFinder {
         std::size_t visits = 0;
         Bounds bounds;
         for (const Vec3d& p : here.p) bounds.extend(Vec3f(p));
-        grow(bounds);
+        grow(bounds, slot);
         const bool here_matters = matters(slot);
         data_.bvh->for_each_near(
             bounds.center(), 0.5f * length(bounds.size()),
@@ -308,7 +309,7 @@ class TouchFinder {
     void hold_against(const Slot& slot, const PlacedTriangle& here, const Slot& other, std::uint32_t triangle) {
         const PlacedTriangle there = place(data_, other.instance, other.geometry, triangle);
         if (here.is_degenerate() || there.is_degenerate()) return;
-        const double distance = contact_distance(here.clearance, there.clearance);
+        const double distance = contact_distance(here, there);
         const std::optional<Bounds> where = touch(here, there, distance);
         if (!where) return;
         const std::lock_guard lock(mutex_);

@@ -20,6 +20,13 @@ const Material& material_of(const WorldData& data, const Hit& hit) {
     return data.materials[data.geometries[hit.geometry].material];
 }
 
+/// Returns TrianglePlane::rounding. Positions are less exact the farther a surface is from zero, and distances the
+/// longer rays are, even where the surface lies in a plane through zero. Who is several times a mesh's size away from
+/// it need not tell it from what lies on it.
+float rounding_of(const WorldData& data, std::uint32_t instance, std::uint32_t geometry) {
+    return 0.5f * kPositionError * data.size_of_slot[slot_of(data, instance, geometry)];
+}
+
 ContactFace face_at(const WorldData& data, const Hit& hit) {
     ContactFace face{.hit = hit};
     const Instance& instance = data.instances[hit.instance];
@@ -30,6 +37,7 @@ ContactFace face_at(const WorldData& data, const Hit& hit) {
         face.position = point.position;
         face.normal = point.geometric_normal;
         face.clearance = point.clearance;
+        face.rounding = rounding_of(data, hit.instance, hit.geometry);
         return face;
     }
     const TrianglePlane plane = triangle_plane(data, hit.instance, hit.geometry, hit.triangle);
@@ -40,6 +48,7 @@ ContactFace face_at(const WorldData& data, const Hit& hit) {
     if (!instance.baked) face.position = transform_point(instance.to_world, face.position);
     face.normal = plane.normal;
     face.clearance = plane.clearance;
+    face.rounding = plane.rounding;
     return face;
 }
 
@@ -61,7 +70,8 @@ TrianglePlane triangle_plane(const WorldData& data, std::uint32_t instance_index
         for (const Vec3f& corner : geometry.positions) extent = max_components(extent, abs_components(corner));
         const Vec3f normal = shape.point(shape_place(triangle_index, {0.0f, 0.0f})).normal;
         return {normal,
-                clearance(normal, instance.baked ? position_error(extent) : position_error(extent, instance.to_world))};
+                clearance(normal, instance.baked ? position_error(extent) : position_error(extent, instance.to_world)),
+                rounding_of(data, instance_index, geometry_index)};
     }
     const auto& triangle = geometry.triangles[triangle_index];
     const Vec3f& p0 = geometry.positions[triangle[0]];
@@ -74,7 +84,7 @@ TrianglePlane triangle_plane(const WorldData& data, std::uint32_t instance_index
         if (normal_length > 0.0f) normal *= 1.0f / normal_length;
     }
     const Vec3f error = instance.baked ? position_error(point.extent) : position_error(point.extent, instance.to_world);
-    return {normal, clearance(normal, error)};
+    return {normal, clearance(normal, error), rounding_of(data, instance_index, geometry_index)};
 }
 
 bool stops_light(const Material& material) {
@@ -167,7 +177,7 @@ Contact Contacts::at(const WorldData& data, const Ray& ray, const Hit& hit) cons
     for (std::size_t c = 0; c < waiting && contact.count < Contact::kCapacity;) {
         const ContactFace& candidate = candidates[c];
         const bool touches = std::ranges::any_of(contact.all(), [&](const ContactFace& face) {
-            return std::abs(face.depth - candidate.depth) <= contact_distance(face.clearance, candidate.clearance);
+            return std::abs(face.depth - candidate.depth) <= contact_distance(face, candidate);
         });
         if (!touches) {
             ++c;

@@ -40,6 +40,7 @@ struct ContactFace {
     Vec3f position{0.0f};    ///< metres
     Vec3f normal{0.0f};      ///< unit, geometric, on the front
     float clearance = 0.0f;  ///< metres, as in SurfacePoint
+    float rounding = 0.0f;   ///< metres, as in TrianglePlane
     float depth = 0.0f;      ///< metres that it lies beyond the first face, along that one's normal
 };
 
@@ -59,16 +60,24 @@ struct ContactInteriors {
     Interior behind;
 };
 
-/// Metres within which two surfaces count as one, of what clears each of them.
+/// Returns the metres within which a point and a surface count as touching, of what clears each of them.
 template <typename T>
-[[nodiscard]] constexpr T contact_distance(T clearance, T other) {
+[[nodiscard]] constexpr T touching_distance(T clearance, T other) {
     return T(2) * (clearance + other);
 }
+/// Returns the metres within which two surfaces with a clearance and a rounding count as one: rays tell nearer ones
+/// apart neither where they start nor where they arrive.
+template <typename Surface>
+[[nodiscard]] constexpr auto contact_distance(const Surface& a, const Surface& b) {
+    const auto rounding = std::min(a.rounding, b.rounding);
+    return std::max(touching_distance(a.clearance, b.clearance), touching_distance(rounding, rounding));
+}
 
-/// Distance from its plane, metres, that clears a triangle of an instance, and its normal.
+/// Holds the plane of a triangle of an instance.
 struct TrianglePlane {
-    Vec3f normal{0.0f};  ///< unit, on the front; zero if the triangle has no area
-    float clearance = 0.0f;
+    Vec3f normal{0.0f};      ///< unit, on the front; zero if the triangle has no area
+    float clearance = 0.0f;  ///< distance from the plane that clears it, metres
+    float rounding = 0.0f;  ///< error of the distances at which rays from several times the mesh's size meet it, metres
 };
 [[nodiscard]] TrianglePlane triangle_plane(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
                                            std::uint32_t triangle);

@@ -57,8 +57,9 @@ PlacedTriangle place(const WorldData& data, std::uint32_t instance_index, std::u
         if (placed.is_degenerate()) return placed;
         placed.normal = across / (2.0 * placed.area) * (instance.mirrors ? -1.0 : 1.0);
     }
-    placed.clearance =
-        static_cast<double>(triangle_plane(data, instance_index, geometry_index, triangle_index).clearance);
+    const TrianglePlane plane = triangle_plane(data, instance_index, geometry_index, triangle_index);
+    placed.clearance = static_cast<double>(plane.clearance);
+    placed.rounding = static_cast<double>(plane.rounding);
     return placed;
 }
 

@@ -16,7 +16,8 @@ struct PlacedTriangle {
     std::array<Vec3d, 3> p;
     Vec3d normal;  ///< unit, on the front
     double area = 0.0;
-    double clearance = 0.0;
+    double clearance = 0.0;  ///< metres, as in TrianglePlane
+    double rounding = 0.0;   ///< metres, as in TrianglePlane
 
     [[nodiscard]] bool is_degenerate() const { return !(area > 0.0); }
 };

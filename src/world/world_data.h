@@ -69,6 +69,8 @@ struct WorldData {
     std::unique_ptr<EmbreeScene> bvh;
     std::unique_ptr<EmbreeScene> clear_surfaces;  ///< for `collect`; null if there are none
     std::unique_ptr<Contacts> contacts;           ///< null if no surfaces touch for which that matters
+    /// Holds the diagonals of the bounds of every (instance, geometry), metres.
+    std::vector<float> size_of_slot;
     /// Holds 1 for emitters that touch other emitters; empty without contacts.
     std::vector<std::uint8_t> shares_place_of_slot;
     /// Holds planes that take a ray clear of surfaces in which a lamp lies, for each lamp.

@@ -268,6 +268,64 @@ TEST(Contact, InstancesOfOneSheetInOnePlaceAreAsManyAsThereAre) {
         }
 }
 
+/// A white wall in the plane z = `plane` and a tinted sheet on it, either of which is the first of the file.
+SceneDesc sheet_on_a_wall(float plane, bool sheet_is_first, float gap) {
+    SceneDesc scene;
+    set_environment(scene);
+    const PrimitiveDesc wall = quad({0, 0, plane}, {2, 0, 0}, {0, 2, 0});
+    const PrimitiveDesc sheet = quad({0, 0, plane + gap}, {2, 0, 0}, {0, 2, 0});
+    const MaterialDesc white = diffuse(1.0f);
+    if (sheet_is_first) add(scene, sheet, tinted_sheet());
+    add(scene, wall, white);
+    if (!sheet_is_first) add(scene, sheet, tinted_sheet());
+    look(scene, {0.3f, 0.2f, plane + 3.0f}, normalize(Vec3f(-0.1f, -0.05f, -1.0f)), 0.1f);
+    return scene;
+}
+
+// Coordinates of zero have no rounding, but distances along rays have.
+TEST(Contact, ASheetOnAWallInAPlaneThroughZeroIsSeen) {
+    const PathLengths lengths{.max_depth = 40};
+    const float expected = placed_mean(sheet_on_a_wall(0.0f, true, 0.1f), "path", lengths, 256).g;
+    for (const char* integrator : {"naive", "path", "bdpt"})
+        for (const float plane : {0.0f, 1e-3f, 0.3f, 4.0f})
+            for (const float gap : {0.0f, 1e-7f, 1e-6f})
+                for (const bool sheet_is_first : {false, true})
+                    EXPECT_NEAR(placed_mean(sheet_on_a_wall(plane, sheet_is_first, gap), integrator, lengths, 16).g,
+                                expected, 0.02f)
+                        << integrator << ", plane " << plane << ", " << with_gap("", gap) << sheet_is_first;
+}
+
+/// A lamp on a sheet that transmits, in the plane z = `plane`, between two white walls.
+SceneDesc lamp_on_a_sheet(float plane, bool sheet_is_first, float roughness) {
+    SceneDesc scene;
+    MaterialDesc sheet = tinted_sheet();
+    sheet.base_color = Rgb(1.0f);
+    sheet.roughness = roughness;
+    const auto add_sheet = [&] { add(scene, quad({0, 0, plane}, {2, 0, 0}, {0, 2, 0}), sheet); };
+    if (sheet_is_first) add_sheet();
+    MaterialDesc lamp = diffuse(0.0f);
+    lamp.emissive = Rgb(1.0f);
+    lamp.emissive_strength = 5.0f;
+    add(scene, quad({0, 0, plane}, {0.5f, 0, 0}, {0, 0.5f, 0}), lamp);
+    if (!sheet_is_first) add_sheet();
+    add(scene, quad({0, 0, plane - 1.0f}, {2, 0, 0}, {0, 2, 0}), diffuse(0.8f));
+    add(scene, quad({0, 0, plane + 1.5f}, {2, 0, 0}, {0, -2, 0}), diffuse(0.8f));
+    look(scene, {0.3f, 0.9f, plane + 1.4f}, normalize(Vec3f(0.1f, -0.05f, -1.0f)), 0.2f);
+    return scene;
+}
+
+TEST(Contact, ALampOnASheetInAPlaneThroughZeroShinesBeforeIt) {
+    const PathLengths lengths{.max_depth = 12};
+    for (const float roughness : {0.0f, 0.3f}) {
+        const float expected = placed_mean(lamp_on_a_sheet(3.7f, true, roughness), "path", lengths, 256).g;
+        for (const bool sheet_is_first : {false, true})
+            for (const char* integrator : {"path", "bdpt"})
+                EXPECT_NEAR(placed_mean(lamp_on_a_sheet(0.0f, sheet_is_first, roughness), integrator, lengths, 64).g,
+                            expected, 0.03f * expected)
+                    << integrator << ", roughness " << roughness << ", " << sheet_is_first;
+    }
+}
+
 /// A grey floor below a ceiling with a lamp in it, seen past the ceiling.
 SceneDesc under_a_ceiling(const Placing& placing) {
     SceneDesc scene;
