@@ -80,9 +80,8 @@ std::variant<SmoothDielectric, RoughDielectric> make_interface(float ior, Vec2f 
     if (is_same || std::max(alpha.x, alpha.y) < kSmoothAlpha)
         return SmoothDielectric{.ior = is_same ? 1.0f : ior, .tint = tint, .fresnel = fresnel};
     RoughDielectric rough =
-        RoughDielectric::make(ior, std::max(alpha.x, kSmoothAlpha), std::max(alpha.y, kSmoothAlpha));
+        RoughDielectric::make(ior, std::max(alpha.x, kSmoothAlpha), std::max(alpha.y, kSmoothAlpha), fresnel);
     rough.tint = tint;
-    rough.fresnel = fresnel;
     return rough;
 }
 

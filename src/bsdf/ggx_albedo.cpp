@@ -34,21 +34,39 @@ BasicGgxAlbedo<T> ggx_albedo_average(T alpha) {
 template GgxAlbedo ggx_albedo_average(float);
 template BasicGgxAlbedo<Wide> ggx_albedo_average(Wide);
 
-float ggx_dielectric_albedo(float cos_theta, float alpha, float eta) {
+namespace {
+
+float of_interface(const std::array<Slice, kEtasOutside>& outside, const std::array<Slice, kEtasInside>& inside,
+                   float cos_theta, float alpha, float eta) {
     const auto a = place(alpha_coordinate(alpha, kAlphas), kAlphas);
     const auto c = place(cosine_coordinate(cos_theta, alpha), kCosines);
-    return eta >= 1.0f
-               ? interpolate(kTables.outside, place(outside_coordinate(eta, cos_theta, alpha), kEtasOutside), a, c)
-               : interpolate(kTables.inside, place(inside_coordinate(1.0f / eta, cos_theta, alpha), kEtasInside), a, c);
+    return eta >= 1.0f ? interpolate(outside, place(outside_coordinate(eta, cos_theta, alpha), kEtasOutside), a, c)
+                       : interpolate(inside, place(inside_coordinate(1.0f / eta, cos_theta, alpha), kEtasInside), a, c);
 }
 
-float ggx_dielectric_albedo_average(float alpha, float eta) {
+float average_of_interface(const std::array<std::array<Averages, kAverageEtas>, 2>& sides, float alpha, float eta) {
     const auto a = place(alpha_coordinate(alpha, kAverageAlphas), kAverageAlphas);
     const bool outside = eta >= 1.0f;
     const auto e = place(average_eta_coordinate(outside ? eta : 1.0f / eta), kAverageEtas);
-    const auto& averages = kTables.dielectric_average[outside ? 0 : 1];
+    const auto& averages = sides[outside ? 0 : 1];
     const auto low = static_cast<std::size_t>(e.index);
     return mix(interpolate(averages[low], a), interpolate(averages[low + 1], a), e.t);
+}
+
+}  // namespace
+
+float ggx_dielectric_albedo(float cos_theta, float alpha, float eta) {
+    return of_interface(kTables.outside, kTables.inside, cos_theta, alpha, eta);
+}
+float ggx_dielectric_albedo_average(float alpha, float eta) {
+    return average_of_interface(kTables.dielectric_average, alpha, eta);
+}
+
+float ggx_clear_albedo(float cos_theta, float alpha, float eta) {
+    return of_interface(kTables.clear_outside, kTables.clear_inside, cos_theta, alpha, eta);
+}
+float ggx_clear_albedo_average(float alpha, float eta) {
+    return average_of_interface(kTables.clear_average, alpha, eta);
 }
 
 }  // namespace etendue

@@ -39,6 +39,25 @@ struct InterfaceFresnel {
         return {reflected, transmitted, chance + transmitted > 0.0f ? chance / (chance + transmitted) : 1.0f};
     }
 
+    /// Gives what is reflected where that is not all, in the brightest channel and without the film, as `bare` times
+    /// the reflectance of the indices and `all` times 1.
+    struct Mixture {
+        float bare = 1.0f;
+        float all = 0.0f;
+
+        /// Returns a figure that is linear in the reflectance, from what it is for that of the indices, for 1, and for
+        /// 0 where reflection is not total.
+        [[nodiscard]] float of(float of_bare, float of_all, float of_none) const {
+            return bare * of_bare + all * of_all + (1.0f - bare - all) * of_none;
+        }
+    };
+    [[nodiscard]] Mixture mixture(float eta) const {
+        const float bare_normal = normal_reflectance(eta);
+        const float normal = max_component(at_normal_incidence(eta));
+        const float bare = (weight - normal) / (1.0f - bare_normal);
+        return {bare, normal - bare * bare_normal};
+    }
+
     /// True if the reflectance is that of the indices alone.
     [[nodiscard]] bool is_bare() const { return !film.exists() && weight == 1.0f && tint == Rgb(1.0f); }
 

@@ -17,17 +17,46 @@ float mean_alpha(const Ggx& ggx) {
     return ggx.is_isotropic() ? ggx.alpha_x : std::sqrt(ggx.alpha_x * ggx.alpha_y);
 }
 
-/// 1 - E(w), for `w` on the side whose other side has the relative index `eta`.
-float missing_of(const Ggx& ggx, const Vec3f& w, float eta) {
+/// Returns the alpha of round facets that miss `target`, where `missing` grows with alpha.
+template <typename Missing>
+float alpha_that_misses(float target, const Missing& missing) {
+    float low = 0.0f;
+    float high = 1.0f;
+    for (int i = 0; i < 12; ++i) (missing(0.5f * (low + high)) < target ? low : high) = 0.5f * (low + high);
+    return 0.5f * (low + high);
+}
+
+/// Returns 1 - E(w), for `w` on the side whose other side has the relative index `eta`. Stretched facets with a
+/// reflectance of their own miss what round ones do that miss as much with that of the indices.
+float missing_of(const InterfaceFresnel& fresnel, const Ggx& ggx, const Vec3f& w, float eta) {
     const Vec3f above{w.x, w.y, std::abs(w.z)};
-    return ggx.is_isotropic() ? std::clamp(1.0f - ggx_dielectric_albedo(above.z, ggx.alpha_x, eta), 0.0f, 1.0f)
-                              : ggx_anisotropic_dielectric_missing(above, ggx.alpha_x, ggx.alpha_y, eta);
+    const auto bare = [&](float alpha) { return 1.0f - ggx_dielectric_albedo(above.z, alpha, eta); };
+    const float of_bare = ggx.is_isotropic() ? bare(ggx.alpha_x)
+                                             : ggx_anisotropic_dielectric_missing(above, ggx.alpha_x, ggx.alpha_y, eta);
+    if (fresnel.is_bare()) return std::clamp(of_bare, 0.0f, 1.0f);
+    const float alpha = ggx.is_isotropic() ? ggx.alpha_x : alpha_that_misses(of_bare, bare);
+    return std::clamp(fresnel.mixture(eta).of(of_bare, 1.0f - ggx_albedo(above.z, alpha).single,
+                                              1.0f - ggx_clear_albedo(above.z, alpha, eta)),
+                      0.0f, 1.0f);
 }
 
 /// Returns 1 - E averaged over the hemisphere on the side whose other side has the relative index `eta`.
-float missing_average_of(const Ggx& ggx, float eta) {
-    return ggx.is_isotropic() ? 1.0f - ggx_dielectric_albedo_average(ggx.alpha_x, eta)
+float missing_average_of(const InterfaceFresnel& fresnel, const Ggx& ggx, float eta) {
+    const auto bare = [&](float alpha) { return 1.0f - ggx_dielectric_albedo_average(alpha, eta); };
+    const float of_bare = ggx.is_isotropic()
+                              ? bare(ggx.alpha_x)
                               : ggx_anisotropic_dielectric_missing_average(ggx.alpha_x, ggx.alpha_y, eta);
+    if (fresnel.is_bare()) return of_bare;
+    const float alpha = ggx.is_isotropic() ? ggx.alpha_x : alpha_that_misses(of_bare, bare);
+    return std::clamp(fresnel.mixture(eta).of(of_bare, 1.0f - ggx_albedo_average(alpha).single,
+                                              1.0f - ggx_clear_albedo_average(alpha, eta)),
+                      0.0f, 1.0f);
+}
+
+/// Returns the share of diffuse light that a smooth interface to an index `eta` times that on this side lets through.
+float passed_by_smooth(const InterfaceFresnel& fresnel, float eta) {
+    const float total = std::max(0.0f, 1.0f - eta * eta);
+    return 1.0f - fresnel.mixture(eta).of(fresnel_dielectric_average(eta), 1.0f, total);
 }
 
 /// The interface seen from wo's side, mirrored so that wo.z > 0.
@@ -47,7 +76,7 @@ struct Side {
           multiple_directions(mean_alpha(ggx)),
           outside(wo.z > 0.0f),
           eta(outside ? interface.ior : 1.0f / interface.ior),
-          missing(missing_of(ggx, wo, eta)),
+          missing(missing_of(interface.fresnel, ggx, wo, eta)),
           multiple_transmitted(outside ? interface.multiple_transmitted_outside
                                        : interface.multiple_transmitted_inside) {}
 
@@ -60,7 +89,7 @@ struct Side {
 /// (1 - E(w)) / (1 - E_avg) |cos| / pi on the side whose other side has the relative index `eta`: integrates to 1.
 float multiple_shape(const Side& side, float eta, float missing_average, const Vec3f& w) {
     if (!(missing_average > 0.0f)) return 0.0f;
-    return missing_of(side.ggx, w, eta) / missing_average * std::abs(w.z) * kInvPi;
+    return missing_of(side.lobe.fresnel, side.ggx, w, eta) / missing_average * std::abs(w.z) * kInvPi;
 }
 
 /// Evaluates reflection in particle (importance) mode; wo.z > 0, wi.z > 0.
@@ -110,20 +139,21 @@ Vec3f flip(const Vec3f& w) {
 
 }  // namespace
 
-RoughDielectric RoughDielectric::make(float wanted_ior, float alpha_x, float alpha_y) {
+RoughDielectric RoughDielectric::make(float wanted_ior, float alpha_x, float alpha_y, const InterfaceFresnel& fresnel) {
     const float ior = std::clamp(wanted_ior, 1.0f / kMaxTabulatedEta, kMaxTabulatedEta);
     const Ggx ggx{alpha_x, alpha_y};
-    const float missing_outside = missing_average_of(ggx, ior);
-    const float missing_inside = missing_average_of(ggx, 1.0f / ior);
+    const float missing_outside = missing_average_of(fresnel, ggx, ior);
+    const float missing_inside = missing_average_of(fresnel, ggx, 1.0f / ior);
     const float larger = std::max({missing_outside, missing_inside, 1e-6f});
-    const float passed = 1.0f - fresnel_dielectric_average(ior);
+    const float passed = passed_by_smooth(fresnel, ior);
     return {.ior = ior,
             .alpha_x = alpha_x,
             .alpha_y = alpha_y,
             .multiple_transmitted_outside = passed * missing_inside / larger,
             .multiple_transmitted_inside = passed / (ior * ior) * missing_outside / larger,
             .missing_average_outside = missing_outside,
-            .missing_average_inside = missing_inside};
+            .missing_average_inside = missing_inside,
+            .fresnel = fresnel};
 }
 
 BsdfValue RoughDielectric::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {

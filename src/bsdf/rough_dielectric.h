@@ -10,7 +10,7 @@
 // 5.14), holds when T_A / (e_avg_B n_B²) = T_B / (e_avg_A n_A²); the factor that is left free makes the larger of the
 // two shares that of a smooth interface in diffuse light. In a white furnace the sum is 1 within 0.5%, for every
 // alpha along x and along y, from both sides, for indices from 1.002 and cosines from 0.02 on. Closer to
-// edge-on than 0.02 it is 3%.
+// edge-on than 0.02 it is 3%, and 6% where facets are stretched and reflect less or more than the index says.
 // Example: frosted glass, ior 1.5, alpha = 0.2.
 #pragma once
 
@@ -33,7 +33,8 @@ struct RoughDielectric {
     InterfaceFresnel fresnel{};
 
     /// Prepares the shares above. Indices beyond those tabulated are taken for the largest or smallest that are.
-    [[nodiscard]] static RoughDielectric make(float ior, float alpha_x, float alpha_y);
+    [[nodiscard]] static RoughDielectric make(float ior, float alpha_x, float alpha_y,
+                                              const InterfaceFresnel& fresnel = {});
     [[nodiscard]] static RoughDielectric make(float ior, float alpha) { return make(ior, alpha, alpha); }
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;

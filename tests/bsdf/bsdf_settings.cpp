@@ -133,8 +133,7 @@ void add_bodies(std::vector<BsdfSetting>& settings, TransportMode mode, const ch
     settings.push_back({fmt::format("bubble {}", mode_name), RoughDielectric::make(0.7f, 0.2f), mode});
     rough = RoughDielectric::make(1.7f, 1.0f, 0.05f);
     settings.push_back({fmt::format("combed dielectric {}", mode_name), rough, mode});
-    rough = RoughDielectric::make(1.4f, 0.2f);
-    rough.fresnel = tinted;
+    rough = RoughDielectric::make(1.4f, 0.2f, 0.2f, tinted);
     settings.push_back({fmt::format("film on a dielectric {}", mode_name), rough, mode});
     settings.push_back({fmt::format("partly metal {}", mode_name), DielectricBody{rough, kPlastic, 0.6f}, mode});
     const SmoothDielectric smooth{.ior = 1.6f, .tint = {0.3f, 0.6f, 0.9f}, .fresnel = tinted};

@@ -181,6 +181,27 @@ TEST(WhiteFurnace, DielectricFromBothSides) {
                 [=](float alpha) { return RoughDielectric::make(ior, alpha); }, side);
 }
 
+// Facets that reflect less let more through; what is lost between them changes with it.
+TEST(WhiteFurnace, DielectricWithAnotherReflectance) {
+    struct Interface {
+        float ior;
+        InterfaceFresnel fresnel;
+    };
+    for (const auto& [ior, fresnel] : {Interface{1.5f, {.weight = 0.0f}}, Interface{3.0f, {.weight = 0.3f}},
+                                       Interface{1.5f, {.tint = Rgb(0.0f)}}, Interface{0.7f, {.tint = Rgb(3.0f)}}})
+        for (const float side : {1.0f, -1.0f}) {
+            const auto make = [ior = ior, fresnel = fresnel](float alpha) {
+                return RoughDielectric::make(ior, alpha, alpha, fresnel);
+            };
+            expect_white("index " + std::to_string(ior), make, side);
+        }
+    // Stretched facets are taken for round ones that miss as much.
+    for (const float side : {1.0f, -1.0f})
+        expect_white(
+            "stretched", [](float alpha) { return RoughDielectric::make(1.5f, 1.0f, alpha, {.weight = 0.0f}); }, side,
+            0.06, 0.7f);
+}
+
 TEST(WhiteFurnace, DielectricBubble) {
     for (const float side : {1.0f, -1.0f})
         expect_white(

@@ -37,13 +37,19 @@ class GgxView {
         const Vec3f wi = h * (2.0f * dot(wo_, h)) - wo_;
         return wi.z > 0.0f ? weight(wi) : 0.0f;
     }
-    /// Share of the light at the facet `h` that leaves the interface to an index `eta` times that on this side;
-    /// `reflected` is `weight_reflected(h)`, which serves every index.
-    [[nodiscard]] float weight_of_interface(const Vec3f& h, float reflected, float eta) const {
+    /// Shares of light that leave an interface, and one that reflects only where it does so totally.
+    struct InterfaceWeights {
+        float fresnel;
+        float clear;
+    };
+    /// Returns the shares of the light at the facet `h` that leave interfaces to an index `eta` times that on this
+    /// side; `reflected` is `weight_reflected(h)`, which serves every index.
+    [[nodiscard]] InterfaceWeights weights_of_interface(const Vec3f& h, float reflected, float eta) const {
         const float f = fresnel_dielectric(dot(wo_, h), eta);
         Vec3f wi;
-        const bool refracts = refract(wo_, h, eta, wi) && wi.z < 0.0f;
-        return f * reflected + (refracts ? (1.0f - f) * weight(wi) : 0.0f);
+        if (!refract(wo_, h, eta, wi)) return {f * reflected, reflected};
+        const float refracted = wi.z < 0.0f ? weight(wi) : 0.0f;
+        return {f * reflected + (1.0f - f) * refracted, refracted};
     }
 
   private:

@@ -35,6 +35,8 @@ struct Directional {
     double single = 0.0;
     std::array<double, kEtasOutside> outside{};
     std::array<double, kEtasInside> inside{};
+    std::array<double, kEtasOutside> clear_outside{};
+    std::array<double, kEtasInside> clear_inside{};
 };
 
 /// The same normals serve every index of refraction.
@@ -49,10 +51,16 @@ Directional integrate(float alpha, float cos_theta) {
         const Vec3f h = view.normal_of_one_side(i);
         const float reflected = view.weight_reflected(h);
         sum.single += static_cast<double>(reflected);
-        for (std::size_t e = 0; e < kEtasOutside; ++e)
-            sum.outside[e] += static_cast<double>(view.weight_of_interface(h, reflected, outside[e]));
-        for (std::size_t e = 0; e < kEtasInside; ++e)
-            sum.inside[e] += static_cast<double>(view.weight_of_interface(h, reflected, inside[e]));
+        for (std::size_t e = 0; e < kEtasOutside; ++e) {
+            const auto [fresnel, clear] = view.weights_of_interface(h, reflected, outside[e]);
+            sum.outside[e] += static_cast<double>(fresnel);
+            sum.clear_outside[e] += static_cast<double>(clear);
+        }
+        for (std::size_t e = 0; e < kEtasInside; ++e) {
+            const auto [fresnel, clear] = view.weights_of_interface(h, reflected, inside[e]);
+            sum.inside[e] += static_cast<double>(fresnel);
+            sum.clear_inside[e] += static_cast<double>(clear);
+        }
     }
     return sum;
 }
@@ -63,10 +71,14 @@ void fill_directional(Tables& tables) {
         for (std::size_t c = 0; c < kCosines; ++c) {
             const Directional sum = integrate(row_alpha, cosine(static_cast<float>(c), row_alpha));
             tables.single[a][c] = static_cast<float>(sum.single / kSamples);
-            for (std::size_t e = 0; e < kEtasOutside; ++e)
+            for (std::size_t e = 0; e < kEtasOutside; ++e) {
                 tables.outside[e][a][c] = static_cast<float>(sum.outside[e] / kSamples);
-            for (std::size_t e = 0; e < kEtasInside; ++e)
+                tables.clear_outside[e][a][c] = static_cast<float>(sum.clear_outside[e] / kSamples);
+            }
+            for (std::size_t e = 0; e < kEtasInside; ++e) {
                 tables.inside[e][a][c] = static_cast<float>(sum.inside[e] / kSamples);
+                tables.clear_inside[e][a][c] = static_cast<float>(sum.clear_inside[e] / kSamples);
+            }
         }
     }
     for (std::size_t a = 0; a < kShareAlphas; ++a)
@@ -107,14 +119,20 @@ void fill_averages(Tables& tables) {
         tables.schlick_average[i] = average(row_alpha, schlick);
         for (std::size_t e = 0; e < kAverageEtas; ++e) {
             const float eta = average_eta(static_cast<int>(e));
-            tables.dielectric_average[0][e][i] = average(row_alpha, [&](float mu, Place<float> c) {
-                const Place place_e = place(outside_coordinate(eta, mu, row_alpha), kEtasOutside);
-                return interpolate(tables.outside, place_e, a, c);
-            });
-            tables.dielectric_average[1][e][i] = average(row_alpha, [&](float mu, Place<float> c) {
-                const Place place_e = place(inside_coordinate(eta, mu, row_alpha), kEtasInside);
-                return interpolate(tables.inside, place_e, a, c);
-            });
+            const auto outside = [&](const auto& table) {
+                return average(row_alpha, [&](float mu, Place<float> c) {
+                    return interpolate(table, place(outside_coordinate(eta, mu, row_alpha), kEtasOutside), a, c);
+                });
+            };
+            const auto inside = [&](const auto& table) {
+                return average(row_alpha, [&](float mu, Place<float> c) {
+                    return interpolate(table, place(inside_coordinate(eta, mu, row_alpha), kEtasInside), a, c);
+                });
+            };
+            tables.dielectric_average[0][e][i] = outside(tables.outside);
+            tables.dielectric_average[1][e][i] = inside(tables.inside);
+            tables.clear_average[0][e][i] = outside(tables.clear_outside);
+            tables.clear_average[1][e][i] = inside(tables.clear_inside);
         }
     }
 }
