@@ -100,7 +100,9 @@ struct NextStep {
 
 NextStep next_step(const RenderState& now, const RenderOptions& options, const ThreadPool& threads) {
     std::optional<ErrorEstimate> error;
-    if (options.relative_error > 0.0) error = error_of(now, threads);
+    // Samples that merge are added one by one: a pause between two of them must decide nothing.
+    const bool is_due = !now.adaptive.is_uniform() || begins_pass(now.next_sample());
+    if (options.relative_error > 0.0 && is_due) error = error_of(now, threads);
     if (const auto limit = reached_limit(now, error, options)) return {.halt = limit};
     const bool is_begun = !now.adaptive.is_uniform();
     if (!error || !options.adaptive || (now.spp_done < options.min_spp && !is_begun)) {

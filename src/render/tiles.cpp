@@ -48,6 +48,10 @@ std::uint32_t pass_size(std::uint32_t first, std::uint32_t end) {
     return std::min(next, end) - first;
 }
 
+bool begins_pass(std::uint32_t first) {
+    return first < kLargestPass ? first == 0 || std::has_single_bit(first) : first % kLargestPass == 0;
+}
+
 bool is_odd_pass(std::uint32_t first) {
     // Those before kLargestPass begin at powers of two, the others at its multiples: 1, 4, 16, 48, 80, …
     static_assert(std::bit_width(kLargestPass / 2) % 2 == 0, "the first large pass differs from the one before");

@@ -124,6 +124,22 @@ TEST_P(AdaptiveRender, IsTheSameForAnyThreadsAndOrderAndStops) {
 INSTANTIATE_TEST_SUITE_P(Integrators, AdaptiveRender, testing::Values("path", "bdpt"),
                          [](const auto& test) { return test.param; });
 
+// They make passes of their own, but the error is asked for where those of others end.
+TEST(AdaptiveVcm, APauseBetweenSamplesThatMergeDecidesNothing) {
+    const World world = compile(busy_scene(40, 25));
+    const auto integrator = make_integrator("vcm", {});
+    const RenderOptions options = adaptive_options(40, 25, 10.0, 512);
+    const ThreadPool pool(1);
+    const std::atomic<bool> stop{false};
+    int asked = 0;
+    const RenderPause pause{.is_due = [&] { return ++asked % 3 == 0; }, .act = [](const RenderState&) {}};
+    const RenderResult paused = render(world, *integrator, options, pool, stop, {}, pause, with_halves(options));
+    const RenderResult whole = render_all(world, "vcm", options, 1);
+    EXPECT_EQ(paused.halt_reason, HaltReason::ErrorReached);
+    EXPECT_EQ(paused.spp_done, whole.spp_done);
+    EXPECT_TRUE(same_bytes(paused.film.resolve(), whole.film.resolve()));
+}
+
 // There is nothing to choose between pixels.
 TEST(AdaptiveLight, IsUniform) {
     const World world = compile(busy_scene(40, 25));
