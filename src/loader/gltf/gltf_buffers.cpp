@@ -22,9 +22,13 @@ class BufferLoader {
                  std::vector<std::filesystem::path>& inputs)
         : bin_(bin), directory_(directory), inputs_(inputs) {}
 
-    /// Throws IoError.
-    std::vector<unsigned char> load(const nlohmann::json& buffer, bool is_first) {
-        const auto length = buffer["byteLength"].get<std::uintmax_t>();
+    /// Loads as much of a buffer as is there, of which views take the first `viewed` bytes. Throws IoError.
+    std::vector<unsigned char> load(const nlohmann::json& buffer, bool is_first, std::uintmax_t viewed) {
+        // Some exporters round the length up.
+        constexpr std::uintmax_t kMostTooMany = 3;
+        const auto claimed = buffer["byteLength"].get<std::uintmax_t>();
+        const bool is_rounded_up = viewed > 0 && claimed > viewed && claimed - viewed <= kMostTooMany;
+        const std::uintmax_t length = is_rounded_up ? viewed : claimed;
         if (!buffer.contains("uri")) return from_chunk(length, is_first);
         const std::string& uri = buffer["uri"].get_ref<const std::string&>();
         return is_data_uri(uri) ? from_data_uri(uri, length) : from_file(uri, length);
@@ -79,6 +83,28 @@ bool same_but_for_case(std::string_view text, std::string_view lower) {
     });
 }
 
+/// Returns how many bytes of each buffer views take, those of meshopt's extension among them.
+std::vector<std::uintmax_t> viewed_bytes(const nlohmann::json& document) {
+    std::vector<std::uintmax_t> ends(document["buffers"].size(), 0);
+    const auto add = [&](const nlohmann::json& view) {
+        if (!view.is_object() || !view.contains("buffer") || !view["buffer"].is_number_unsigned()) return;
+        const auto buffer = view["buffer"].get<std::size_t>();
+        if (buffer >= ends.size()) return;
+        const auto number = [&](const char* key) {
+            const auto found = view.find(key);
+            return found != view.end() && found->is_number_unsigned() ? found->get<std::uintmax_t>() : 0;
+        };
+        ends[buffer] = std::max(ends[buffer], number("byteOffset") + number("byteLength"));
+    };
+    if (document.contains("bufferViews"))
+        for (const nlohmann::json& view : document["bufferViews"]) {
+            add(view);
+            if (!view.contains("extensions")) continue;
+            for (const auto& [name, extension] : view["extensions"].items()) add(extension);
+        }
+    return ends;
+}
+
 }  // namespace
 
 std::string buffer_name(std::size_t index) {
@@ -117,10 +143,13 @@ GltfBuffers load_gltf_buffers(nlohmann::json& document, std::optional<std::span<
     if (!document.contains("buffers")) return result;
     BufferLoader loader(bin, directory, inputs);
     nlohmann::json& buffers = document["buffers"];
+    const std::vector<std::uintmax_t> viewed = viewed_bytes(document);
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const std::string name = buffer_name(i);
         try {
-            result.emplace(name, loader.load(buffers[i], i == 0));
+            std::vector<unsigned char> bytes = loader.load(buffers[i], i == 0, viewed[i]);
+            buffers[i]["byteLength"] = bytes.size();
+            result.emplace(name, std::move(bytes));
         } catch (const IoError& error) {
             absent.emplace(i, error.what());
             buffers[i]["byteLength"] = 1;

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -162,13 +163,39 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
         const Json& json = images[i];
         GltfImage image{json.value("name", ""), json.value("mimeType", ""), json.value("uri", ""), std::nullopt};
         if (json.contains("bufferView")) image.buffer_view = json["bufferView"].get<int>();
-        const SourceLocation where = result.at(child_pointer("/images", i));
-        if (json.contains("bufferView") == json.contains("uri")) {
-            problems.error(where, "an image needs either a URI or a buffer view");
-        }
+        if (image.buffer_view && !image.uri.empty())
+            problems.warning(result.at(child_pointer("/images", i)),
+                             "has a URI, too, beside its buffer view, which is taken");
         result.images.push_back(std::move(image));
     }
     document.erase("images");
+}
+
+/// Lists the files of images among the inputs, those that nothing shows, too: no output may replace them.
+void list_images(GltfDocument& result) {
+    std::set<std::filesystem::path> listed(result.inputs.begin(), result.inputs.end());
+    for (const GltfImage& image : result.images) {
+        if (image.uri.empty() || is_data_uri(image.uri)) continue;
+        try {
+            const std::filesystem::path file = resolve_uri(result.directory, image.uri);
+            if (listed.insert(file).second) result.inputs.push_back(file);
+        } catch (const IoError&) {
+            // Whoever shows it says what is wrong.
+        }
+    }
+}
+
+/// Leaves out bounds of accessors that are no lists of numbers, as of exporters that write NaN as null.
+void drop_bad_bounds(Json& document) {
+    const auto accessors = document.find("accessors");
+    if (accessors == document.end() || !accessors->is_array()) return;
+    for (Json& accessor : *accessors)
+        for (const char* const key : {"min", "max"}) {
+            const auto bounds = accessor.is_object() ? accessor.find(key) : accessor.end();
+            if (bounds == accessor.end()) continue;
+            const auto is_number = [](const Json& value) { return value.is_number(); };
+            if (!bounds->is_array() || !std::ranges::all_of(*bounds, is_number)) accessor.erase(bounds);
+        }
 }
 
 /// Where a channel leads, without its sampler.
@@ -326,6 +353,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     // A list of its own: what the caller has found before must not end this.
     ProblemList found;
     check_extensions(document, result, found);
+    drop_bad_bounds(document);
     check_shape(document, gltf_shape(), result.at(""), found);
     throw_if_errors(found);
     check_version(document, result, found);
@@ -335,6 +363,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     take_extras(document, result);
     take_animations_and_skins(document, result);
     GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.inputs, result.absent_buffers);
+    list_images(result);
     expand_meshopt_views(document, buffers, result.absent_buffers, result.at(""), found);
     throw_if_errors(found);
 

@@ -72,8 +72,6 @@ const BadDocument kBadDocuments[] = {
     {"WrapUnknown", R"({"samplers": [{"wrapS": 1}]})", "must be one of 33071", "/samplers/0/wrapS"},
     {"AlphaModeUnknown", R"({"materials": [{"alphaMode": "GLASS"}]})", "must be one of OPAQUE", "/alphaMode"},
     {"DoubleSidedNumber", R"({"materials": [{"doubleSided": 1}]})", "must be true or false", "/doubleSided"},
-    {"ImageWithNothing", R"({"images": [{}]})", "either a URI or a buffer view", "/images/0"},
-    {"ImageWithBoth", R"({"images": [{"uri": "a.png", "bufferView": 0}]})", "either a URI", "/images/0"},
     {"ImageViewMissing", R"({"images": [{"bufferView": 12}]})", "refers to number 12", "/images/0/bufferView"},
     {"CameraTypeUnknown", R"({"cameras": [{"type": "fisheye"}]})", "must be one of perspective", "/cameras/0/type"},
     {"LightTypeUnknown", R"({"extensions": {"KHR_lights_punctual": {"lights": [{"type": "area"}]}}})", "must be one of",
@@ -83,7 +81,7 @@ const BadDocument kBadDocuments[] = {
     {"BufferHttp", R"({"buffers": [{"byteLength": 36, "uri": "http://localhost/x"}]})", "other URIs", "/buffers/0"},
     {"BufferEncoded", R"({"buffers": [{"byteLength": 36, "uri": "%2e%2e/scene.bin"}]})", "'..'", "/buffers/0"},
     {"BufferMissing", R"({"buffers": [{"byteLength": 36, "uri": "other.bin"}]})", "does not exist", "/buffers/0"},
-    {"BufferShort", R"({"buffers": [{"byteLength": 37, "uri": "scene.bin"}]})", "37 are needed", "/buffers/0"},
+    {"BufferShort", R"({"buffers": [{"byteLength": 40, "uri": "scene.bin"}]})", "40 are needed", "/buffers/0"},
     {"BufferHuge", R"({"buffers": [{"byteLength": 9007199254740992, "uri": "scene.bin"}]})", "are needed",
      "/buffers/0"},
     {"BufferWithoutUri", R"({"buffers": [{"byteLength": 36}]})", "neither a URI", "/buffers/0"},
@@ -102,6 +100,30 @@ TEST(GltfDocument, ReportsAllWrongTypesAtOnce) {
     builder.json["scene"] = "x";
     builder.json["meshes"][0]["name"] = false;
     EXPECT_EQ(builder.load().problems.error_count(), 3u);
+}
+
+TEST(GltfDocument, AcceptsBuffersThatAreRoundedUpAndBoundsThatAreNoNumbers) {
+    for (const char* patch : {R"({"buffers": [{"byteLength": 38, "uri": "scene.bin"}]})",
+                              R"({"images": [{"uri": "missing.png", "bufferView": 0}]})"}) {
+        GltfBuilder builder = triangle();
+        builder.json.merge_patch(nlohmann::json::parse(patch));
+        const LoadedScene loaded = builder.load();
+        EXPECT_FALSE(loaded.problems.has_errors()) << patch << listing(loaded.problems);
+        EXPECT_EQ(loaded.scene.instances.size(), 1u) << patch;
+    }
+    GltfBuilder builder = triangle();
+    builder.json["accessors"][0]["min"] = {nullptr, nullptr, nullptr};
+    builder.json["accessors"][0]["max"] = "none";
+    EXPECT_FALSE(builder.load().problems.has_errors());
+}
+
+TEST(GltfDocument, FilesOfImagesAreInputsWhetherOrNotTheyAreShown) {
+    const TempDir dir;
+    GltfBuilder builder = triangle();
+    builder.json["images"] = {{{"uri", "unused.png"}}, {{"uri", "unused.png"}}, {{"uri", "missing.png"}}};
+    builder.write(dir);
+    dir.write("unused.png", "not even an image");
+    EXPECT_EQ(inspect_scene(dir.path() / "scene.gltf").scene.inputs.size(), 3u);
 }
 
 TEST(GltfDocument, ArraysAndScalarsAreNoDocument) {
