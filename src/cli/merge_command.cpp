@@ -6,6 +6,7 @@
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
 #include "core/standard_output.h"
+#include "loader/loader.h"
 #include "picture/description_text.h"
 #include "picture/exr_files.h"
 #include "picture/image_description.h"
@@ -141,6 +142,11 @@ ExitCode run_merge(const MergeArguments& arguments) {
     const std::filesystem::path output = arguments.output;
     const OutputPaths paths = OutputPaths::beside(output);
     require_writable(output);
+    if (!is_partial(output) && paths.json.filename() == kSettingsName)
+        throw UsageError(
+            fmt::format("--output: the statistics, {}, would replace settings of a scene, or be taken for "
+                        "some: give the image another name",
+                        paths.json.string()));
     require_parts_kept(arguments,
                        is_partial(output) ? std::vector{output} : std::vector{output, paths.png, paths.json});
     const PhaseTimer timer;
