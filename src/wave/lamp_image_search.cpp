@@ -2,7 +2,7 @@
 
 #include "sampling/hash.h"
 #include "transport/roulette.h"
-#include "wave/lamp_image_sampler.h"
+#include "wave/lamps_by_deltas.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,16 @@
 #include "wave/lamps_in_view.h"
 
 #include "core/vector_bytes.h"
+#include "sampling/hash.h"
 #include "transport/scattered_cone.h"
+#include "wave/one_kind_tracer.h"
 #include "wave/profile/wave_profile.h"
 #include "wave/ray_batch.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -114,8 +117,9 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
                  !is_spelled && may_see_lamps(world, job);
     met_.clear();
     found_.clear();
-    images_.start(world, job, lengths);
-    if (!is_active_ && !images_.is_active()) return;
+    lengths_ = lengths;
+    images_ = job.lamp_images;
+    if (!is_active_ && images_ == nullptr) return;
     around_ = grown(job.rect, kReach);
     first_samples_.assign(job.rect.area(), job.pixels.empty() ? job.first_sample : kNone);
     for (const PixelJob& pixel : job.pixels) first_samples_[pixel.pixel] = pixel.first_sample;
@@ -125,7 +129,7 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
 
 std::size_t LampsInView::bytes() const {
     return vector_bytes(first_samples_, met_, found_, middles_, asks_for_middle_, is_even_, positions_, samples_, rays_,
-                        hits_, film_, shares_);
+                        hits_, film_, shares_, seen_);
 }
 
 SurfacePoint LampsInView::surface_point(const Ray& ray, const Hit& hit) const {
@@ -330,24 +334,52 @@ void LampsInView::sample_images(TileBuffer& tile, RenderCounters& counters) {
             last = std::max(last, of_pixel);
         }
     if (first == kNone) return;
-    images_.sample(
-        first, last + job_->sample_count,
-        [this](const Vec2i& pixel, std::uint32_t sample) { return has_sample(pixel, sample); },
-        [&](const Vec2i& pixel, std::uint32_t sample, const LampSeen& seen, const Rgb& light) {
-            const bool is_deep = job_->aovs != nullptr && job_->aovs->layout.is_deep;
-            add({.pixel = pixel,
-                 .sample = sample,
-                 .offset = {},
-                 .light = light,
-                 .expressions = seen.expressions,
-                 .depth = is_deep ? world_->camera().depth(seen.first_position, seen.time) : 0.0f},
-                pixel, light, tile);
-        },
-        counters);
+    const std::uint32_t end = last + job_->sample_count;
+    OneKindTracer tracer(*world_, *job_, RayKind::LampImage, counters);
+    const PixelFilter& filter = *job_->filter;
+    const float radius = filter.radius();
+    const PixelRect asked = grown(job_->rect, static_cast<int>(std::ceil(radius + 0.5f)));
+    const bool is_deep = job_->aovs != nullptr && job_->aovs->layout.is_deep;
+    images_->for_each_in(asked, [&](const LampPixels& found, const LampPixel& image) {
+        const std::uint32_t seed = hash_u32(make_pixel_seed(job_->seed, static_cast<std::uint32_t>(image.pixel.x),
+                                                            static_cast<std::uint32_t>(image.pixel.y)));
+        const float share = image.area / static_cast<float>(image.samples());
+        for (std::uint32_t index = first; index < end; ++index)
+            for (std::uint32_t round = 0; round < image.samples(); ++round) {
+                const SampleKey key{seed, index * image.samples() + round};
+                const Vec2f film = found.point(image, sample_2d(job_->sequence, key, kFilmDimension));
+                const PixelRect around{static_cast<int>(std::floor(film.x - radius - 0.5f)) + 1,
+                                       static_cast<int>(std::floor(film.y - radius - 0.5f)) + 1,
+                                       static_cast<int>(std::floor(film.x + radius - 0.5f)) + 1,
+                                       static_cast<int>(std::floor(film.y + radius - 0.5f)) + 1};
+                bool has_looked = false;
+                for_each_pixel(intersection(around, job_->rect), [&](const Vec2i& pixel) {
+                    if (!has_sample(pixel, index)) return;
+                    if (!std::exchange(has_looked, true)) {
+                        seen_.clear();
+                        look_for_lamps(*world_, branch_through(*world_, *job_, film, key, &tracer), lengths_, words_,
+                                       seen_);
+                    }
+                    const float scale = share * filter.evaluate(film.x - (static_cast<float>(pixel.x) + 0.5f)) *
+                                        filter.evaluate(film.y - (static_cast<float>(pixel.y) + 0.5f));
+                    if (scale == 0.0f) return;
+                    for (const LampSeen& seen : seen_) {
+                        const Rgb light = seen.light * scale;
+                        add({.pixel = pixel,
+                             .sample = index,
+                             .offset = {},
+                             .light = light,
+                             .expressions = seen.expressions,
+                             .depth = is_deep ? world_->camera().depth(seen.first_position, seen.time) : 0.0f},
+                            pixel, light, tile);
+                    }
+                });
+            }
+    });
 }
 
 void LampsInView::finish(TileBuffer& tile, RenderCounters& counters) {
-    if (images_.is_active()) sample_images(tile, counters);
+    if (images_ != nullptr) sample_images(tile, counters);
     if (is_active_) trace_neighbours(counters);
     if (!met_.empty()) {
         look_at_middles(counters);

@@ -17,7 +17,8 @@
 #include "core/pixel_rect.h"
 #include "scene/integrator_settings.h"
 #include "wave/camera_wave.h"
-#include "wave/lamp_image_sampler.h"
+#include "wave/lamp_images.h"
+#include "wave/lamps_by_deltas.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +43,7 @@ class LampsInView {
 
     /// Returns true if the emission that a path of `sample` has met by deltas alone is found here (lamp_images.h).
     [[nodiscard]] bool finds_image(const CameraSample& sample) const {
-        return images_.is_active() && images_.finds(film_position(sample));
+        return images_ != nullptr && images_->contain(film_position(sample));
     }
 
     /// Notes what lamps `samples` of the job have met: `rays` are theirs, `hits` what these met first.
@@ -69,7 +70,7 @@ class LampsInView {
 
     /// Returns where `sample` of the job falls on the film, pixels of the full image.
     [[nodiscard]] Vec2f film_position(const CameraSample& sample) const;
-    /// Draws the samples of images of lamps.
+    /// Draws the samples of all images of lamps whose light falls into the tile.
     void sample_images(TileBuffer& tile, RenderCounters& counters);
     [[nodiscard]] static bool is_lamp(const World& world, const Hit& hit);
     /// True if the job takes the sample of this index of `pixel`.
@@ -96,7 +97,9 @@ class LampsInView {
     bool filters_textures_ = false;
     Share share_;
     bool is_active_ = false;
-    LampImageSampler images_;
+    PathLengths lengths_;
+    const LampImages* images_ = nullptr;        ///< null if there are none
+    std::vector<LampSeen> seen_;                ///< lamps that the sample at hand of an image has found
     PixelRect around_;                          ///< the job's rectangle with the neighbours of its pixels
     std::vector<std::uint32_t> first_samples_;  ///< by pixel of the tile; kNone of those without samples
     std::vector<Met> met_;

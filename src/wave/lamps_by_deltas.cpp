@@ -1,11 +1,8 @@
-#include "wave/lamp_image_sampler.h"
+#include "wave/lamps_by_deltas.h"
 
-#include "sampling/hash.h"
 #include "transport/scattered_cone.h"
-#include "wave/one_kind_tracer.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace etendue {
 
@@ -54,14 +51,6 @@ struct LampCollector {
     }
 };
 
-/// Returns true if one of the `pixels` takes sample number `index`.
-bool takes_any(const PixelRect& pixels, std::uint32_t index, const LampImageSampler::HasSample& has_sample) {
-    for (int y = pixels.y0; y < pixels.y1; ++y)
-        for (int x = pixels.x0; x < pixels.x1; ++x)
-            if (has_sample({x, y}, index)) return true;
-    return false;
-}
-
 }  // namespace
 
 DeltaBranch branch_along(const World& world, const TileJob& job, const Ray& ray, SampleKey key, SampleTracer* tracer) {
@@ -91,51 +80,6 @@ void look_for_lamps(const World& world, const DeltaBranch& branch, const PathLen
     if (words.are_followed()) start.words = words.begin_at_eye();
     follow_deltas(world, branch, start, lengths.max_depth, collector);
     words.shrink_to(words_before);
-}
-
-void LampImageSampler::start(const World& world, const TileJob& job, const PathLengths& lengths) {
-    world_ = &world;
-    job_ = &job;
-    lengths_ = lengths;
-    images_ = job.lamp_images;
-    words_.reset(job.aovs);
-}
-
-void LampImageSampler::sample(std::uint32_t first, std::uint32_t end, const HasSample& has_sample, const Add& add,
-                              RenderCounters& counters) {
-    OneKindTracer tracer(*world_, *job_, RayKind::LampImage, counters);
-    const PixelFilter& filter = *job_->filter;
-    const float radius = filter.radius();
-    const int beyond = static_cast<int>(std::ceil(radius + 0.5f));
-    const PixelRect& rect = job_->rect;
-    const PixelRect asked{rect.x0 - beyond, rect.y0 - beyond, rect.x1 + beyond, rect.y1 + beyond};
-    images_->for_each_in(asked, [&](const LampPixels& found, const LampPixel& image) {
-        const std::uint32_t seed = hash_u32(make_pixel_seed(job_->seed, static_cast<std::uint32_t>(image.pixel.x),
-                                                            static_cast<std::uint32_t>(image.pixel.y)));
-        for (std::uint32_t index = first; index < end; ++index)
-            for (std::uint32_t round = 0; round < image.samples(); ++round) {
-                const SampleKey key{seed, index * image.samples() + round};
-                const Vec2f film = found.point(image, sample_2d(job_->sequence, key, kFilmDimension));
-                const PixelRect around{static_cast<int>(std::floor(film.x - radius - 0.5f)) + 1,
-                                       static_cast<int>(std::floor(film.y - radius - 0.5f)) + 1,
-                                       static_cast<int>(std::floor(film.x + radius - 0.5f)) + 1,
-                                       static_cast<int>(std::floor(film.y + radius - 0.5f)) + 1};
-                const PixelRect pixels = intersection(around, rect);
-                if (!takes_any(pixels, index, has_sample)) continue;
-                seen_.clear();
-                look_for_lamps(*world_, branch_through(*world_, *job_, film, key, &tracer), lengths_, words_, seen_);
-                if (seen_.empty()) continue;
-                const float share = image.area / static_cast<float>(image.samples());
-                for (int y = pixels.y0; y < pixels.y1; ++y)
-                    for (int x = pixels.x0; x < pixels.x1; ++x) {
-                        if (!has_sample({x, y}, index)) continue;
-                        const float scale = share * filter.evaluate(film.x - (static_cast<float>(x) + 0.5f)) *
-                                            filter.evaluate(film.y - (static_cast<float>(y) + 0.5f));
-                        if (scale == 0.0f) continue;
-                        for (const LampSeen& seen : seen_) add({x, y}, index, seen, seen.light * scale);
-                    }
-            }
-    });
 }
 
 }  // namespace etendue

@@ -1,4 +1,4 @@
-// Samples of images of lamps: what deltas show in the cells of the film that may show a lamp.
+// What lamps a point of the film shows by way of deltas.
 #pragma once
 
 #include "core/rgb.h"
@@ -6,12 +6,8 @@
 #include "scene/integrator_settings.h"
 #include "transport/delta_tree.h"
 #include "wave/aov/path_words.h"
-#include "wave/lamp_images.h"
-#include "wave/render_counters.h"
 #include "wave/tile_job.h"
 
-#include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace etendue {
@@ -40,31 +36,5 @@ struct LampSeen {
 /// Appends to `seen` the lamps that `branch`, of a camera ray, shows by paths of `lengths` with at least one delta.
 void look_for_lamps(const World& world, const DeltaBranch& branch, const PathLengths& lengths, PathWords& words,
                     std::vector<LampSeen>& seen);
-
-/// Samples the images of lamps for one tile after the other.
-class LampImageSampler {
-  public:
-    /// Hears that the sample of index `sample` of `pixel`, of the tile, is to have `light` of what `seen` tells.
-    using Add = std::function<void(const Vec2i& pixel, std::uint32_t sample, const LampSeen& seen, const Rgb& light)>;
-    /// True if the job takes the sample of this index of a pixel of the full image.
-    using HasSample = std::function<bool(const Vec2i& pixel, std::uint32_t sample)>;
-
-    /// Starts a job, which must outlive the call of `sample`, for paths of `lengths`.
-    void start(const World& world, const TileJob& job, const PathLengths& lengths);
-    [[nodiscard]] bool is_active() const { return images_ != nullptr; }
-    /// Returns true if the lamps that deltas show at `film`, pixels of the full image, are found here.
-    [[nodiscard]] bool finds(const Vec2f& film) const { return is_active() && images_->contain(film); }
-    /// Draws the samples of all images whose light falls into the tile, for the samples [first, end) of its pixels.
-    void sample(std::uint32_t first, std::uint32_t end, const HasSample& has_sample, const Add& add,
-                RenderCounters& counters);
-
-  private:
-    const World* world_ = nullptr;
-    const TileJob* job_ = nullptr;
-    PathLengths lengths_;
-    const LampImages* images_ = nullptr;  ///< null if there are none
-    PathWords words_;
-    std::vector<LampSeen> seen_;
-};
 
 }  // namespace etendue
