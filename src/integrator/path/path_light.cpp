@@ -23,26 +23,6 @@ LightKind kind_of_met_light(std::uint32_t history) {
 
 }  // namespace
 
-void PathLight::begin(const TileJob& job, std::size_t count, RenderCounters& counters) {
-    found_.reset(count, job, counters.brightest.threshold());
-    alpha_.assign(count, 1.0f);
-}
-
-void PathLight::count_rays(std::size_t active) {
-    if (found_.counts_rays())
-        for (std::size_t i = 0; i < active; ++i) found_.count_ray(paths_.slot[i]);
-}
-
-void PathLight::trace_shadow_rays(const World& world, const TileJob& job, TileBuffer& tile, RenderCounters& counters) {
-    shadow_rays_.resolve(world, job, paths_.samples, found_, tile, counters);
-}
-
-void PathLight::finish(const TileJob& job, std::size_t count, TileBuffer& tile, RenderCounters& counters) {
-    const std::span samples = std::span(paths_.samples).first(count);
-    lamps_.note_radiance(samples, found_);
-    accumulate(job, samples, found_, alpha_, tile, counters);
-}
-
 LightReceiver PathLight::make_receiver(std::size_t k) const {
     const ShadedPath& path = block_.paths[k];
     if (!path.is_wide) return light_receiver(block_.lanes.position[k], *block_.singles[k].scattering);
@@ -172,7 +152,7 @@ void PathLight::evaluate(std::size_t k) {
 }
 
 void PathLight::count_light_samples(const TileJob& job, std::size_t slot, std::uint32_t samples) {
-    for (std::uint32_t i = 0; i < samples; ++i) found_.count_ray(static_cast<std::uint32_t>(slot));
+    for (std::uint32_t i = 0; i < samples; ++i) found.count_ray(static_cast<std::uint32_t>(slot));
     if (job.profile != nullptr) job.profile->use().light_samples += samples;
 }
 
@@ -185,7 +165,7 @@ void PathLight::add_environment(const PathContext& context) {
         if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
             // A path without light has met a holdout, which has given it its alpha.
             const Rgb throughput = paths_.throughput[block_.first + k];
-            if (!is_black(throughput)) alpha_[paths_.slot[block_.first + k]] = alpha_over_background(throughput);
+            if (!is_black(throughput)) alpha[paths_.slot[block_.first + k]] = alpha_over_background(throughput);
             continue;
         }
         if (!world.traits().has_environment || !context.settings.lengths.is_long_enough(paths_.edges(block_.first + k)))
@@ -238,9 +218,9 @@ void PathLight::add_emission(const PathContext& context, std::size_t k) {
     const std::size_t i = block_.first + k;
     const SurfacePoint& point = block_.singles[k].point;
     if (!context.settings.lengths.is_long_enough(paths_.edges(i))) return;
-    if (context.rays == 1 && lamps_.finds_emission(paths_.hits[i])) return;
+    if (context.rays == 1 && lamps.finds_emission(paths_.hits[i])) return;
     if (paths_.is(path_history::kOnlyDeltas, i) && paths_.edges(i) > 1 &&
-        lamps_.finds_image(paths_.samples[paths_.slot[i]]))
+        lamps.finds_image(paths_.samples[paths_.slot[i]]))
         return;
     const Vec3f direction = paths_.direction[i];
     const Rgb emitted = context.world.materials().emission(point, -direction);
@@ -276,16 +256,15 @@ void PathLight::queue_shadow_rays_of_lanes(const PathContext& context, std::uint
         if (has_transparency)
             for (std::size_t k = l; k < std::min(l + Wide::kWidth, block_.count); ++k)
                 alpha_keys[k - l] = paths_.shadow_alpha_key(context, block_.first + k, round);
-        shadow_rays_.to_sample(
-            {.origin = block_.lanes.shadow_origin.load(l),
-             .direction = block_.lanes.shadow_direction.load(l),
-             .t_max = block_.lanes.shadow_t_max.load(l),
-             .time = paths_.time.load(i),
-             .alpha_key = WideBits::load(alpha_keys.data()),
-             .slot = paths_.slot.load(i),
-             .contribution = block_.lanes.contribution.load(l),
-             .is_direct = paths_.are(path_history::kOnlyDeltas, i)},
-            block_.lanes.arrives.load(l) != Wide(0.0f) && block_.lanes.is_wide.load(l) != Wide(0.0f));
+        shadow_rays.to_sample({.origin = block_.lanes.shadow_origin.load(l),
+                               .direction = block_.lanes.shadow_direction.load(l),
+                               .t_max = block_.lanes.shadow_t_max.load(l),
+                               .time = paths_.time.load(i),
+                               .alpha_key = WideBits::load(alpha_keys.data()),
+                               .slot = paths_.slot.load(i),
+                               .contribution = block_.lanes.contribution.load(l),
+                               .is_direct = paths_.are(path_history::kOnlyDeltas, i)},
+                              block_.lanes.arrives.load(l) != Wide(0.0f) && block_.lanes.is_wide.load(l) != Wide(0.0f));
     }
 }
 
@@ -350,7 +329,7 @@ void PathLight::add(std::size_t i, const Rgb& light, const AovSet::Source& sourc
     const LightKind kind = kind_of_met_light(paths_.history[i]);
     shares_.clear();
     if (paths_.words.are_followed()) paths_.words.end_at_light(paths_.ranges[i], source, shares_);
-    found_.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
+    found.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
 }
 
 void PathLight::queue_shadow_ray(const PathContext& context, std::size_t k, std::uint32_t round, RayToLight to_light,
@@ -368,12 +347,12 @@ void PathLight::queue_shadow_ray(const PathContext& context, std::size_t k, std:
     if (paths_.words.are_followed())
         paths_.words.end_at_light(paths_.ranges[i], event, paths_.words.light_source(context.world, to_light.light),
                                   shares_);
-    shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
-                           paths_.is(path_history::kOnlyDeltas, i) ? LightKind::Direct : LightKind::Indirect, shares_);
+    shadow_rays.to_sample(ray, paths_.slot[i], contribution,
+                          paths_.is(path_history::kOnlyDeltas, i) ? LightKind::Direct : LightKind::Indirect, shares_);
 }
 
 std::size_t PathLight::bytes() const {
-    return found_.bytes() + lamps_.bytes() + shadow_rays_.bytes() + vector_bytes(shares_, alpha_);
+    return found.bytes() + lamps.bytes() + shadow_rays.bytes() + vector_bytes(shares_, alpha);
 }
 
 }  // namespace etendue

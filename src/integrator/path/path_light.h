@@ -24,24 +24,8 @@ class PathLight {
     PathLight(const PathLight&) = delete;
     PathLight& operator=(const PathLight&) = delete;
 
-    /// Returns the estimate of lamps in view.
-    [[nodiscard]] LampsInView& lamps() { return lamps_; }
-    /// Begins with `count` samples that have found no light yet.
-    void begin(const TileJob& job, std::size_t count, RenderCounters& counters);
-    void count_ray(std::uint32_t slot) { found_.count_ray(slot); }
-    /// Counts the next ray of all `active` paths, where limits of light ask for that.
-    void count_rays(std::size_t active);
-    /// Returns true if there are enough shadow rays for a batch.
-    [[nodiscard]] bool has_full_batch() const { return shadow_rays_.is_full(); }
-    /// Traces all shadow rays, and adds the light that arrives.
-    void trace_shadow_rays(const World& world, const TileJob& job, TileBuffer& tile, RenderCounters& counters);
-    /// Adds what the first `count` samples have found to `tile`.
-    void finish(const TileJob& job, std::size_t count, TileBuffer& tile, RenderCounters& counters);
-
     /// Counts light samples that the sample in `slot` has taken with a shadow ray for each.
     void count_light_samples(const TileJob& job, std::size_t slot, std::uint32_t samples);
-    /// Gives the sample in `slot`, whose path carries no light, an alpha of its own.
-    void set_alpha(std::size_t slot, float alpha) { alpha_[slot] = alpha; }
     /// Adds the light of the environment to paths of the block that have left the scene.
     void add_environment(const PathContext& context);
     /// Adds the light of suns to those of them that scatter or mirror it.
@@ -63,6 +47,11 @@ class PathLight {
                                      const HomogeneousMedium& medium);
 
     [[nodiscard]] std::size_t bytes() const;
+
+    ShadowRayQueue shadow_rays{RayKind::Shadow};
+    LampsInView lamps;
+    SampleLight found;         ///< what the samples have found, by slot, that is, by camera sample
+    std::vector<float> alpha;  ///< by slot
 
   private:
     /// Counts for a profile that a direction which path `i` sampled has led to light.
@@ -113,11 +102,6 @@ class PathLight {
     std::array<LightSample, kBlockLanes> environment_samples_{};  ///< light samples of the environment
     std::array<LightReceiver, kBlockLanes> receivers_;            ///< vertices that lights are chosen for, side by side
     std::vector<ExpressionShare> shares_;                         ///< shares of expressions in the contribution at hand
-    ShadowRayQueue shadow_rays_{RayKind::Shadow};
-    LampsInView lamps_;
-    // By slot, that is, by camera sample.
-    SampleLight found_;
-    std::vector<float> alpha_;
 };
 
 }  // namespace etendue

@@ -69,7 +69,7 @@ void PathPlaces::replace_surface(const PathContext& context, std::size_t i) {
     const SeenInPlace seen = seen_in_place(world, world.geometry().surface_point(paths_.hits[i]), paths_.ray(i),
                                            interior, {context.job.sequence, paths_.key(i)}, &tracer);
     light_.count_light_samples(context.job, paths_.slot[i], seen.rays);
-    if (seen.is_hole) light_.set_alpha(paths_.slot[i], alpha_over_background(paths_.throughput[i]));
+    if (seen.is_hole) light_.alpha[paths_.slot[i]] = alpha_over_background(paths_.throughput[i]);
     paths_.throughput.set(i, paths_.throughput[i] * seen.passed);
     paths_.hits[i] = {};
 }

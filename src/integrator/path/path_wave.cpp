@@ -23,7 +23,8 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     const std::span<CameraSample> samples = std::span(paths_.samples).first(count);
     generate_camera_rays(world, job, first, samples, camera_rays);
     if (world.traits().has_clear_surfaces) block_.clear.resize(kBlockLanes);
-    light_.begin(job, count, counters);
+    light_.found.reset(count, job, counters.brightest.threshold());
+    light_.alpha.assign(count, 1.0f);
     paths_.begin(world, job, camera_rays);
     active_ = count;
     stamp(job.profile, Stage::Generate);
@@ -34,18 +35,22 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
             hide_unseen_hits(world, camera_rays, std::span(paths_.hits).first(count));
         else
             look_again(world, job, counters);
-        light_.count_rays(active_);
+        if (light_.found.counts_rays())
+            for (std::size_t i = 0; i < active_; ++i) light_.found.count_ray(paths_.slot[i]);
         if (rays == 1) {
             const std::span hits = std::span(paths_.hits).first(count);
             find_first_hits(world, job, samples, camera_rays, hits, tile);
-            light_.lamps().note(samples, camera_rays, hits, counters);
+            light_.lamps.note(samples, camera_rays, hits, counters);
         }
         stamp(job.profile, Stage::HitSetup);
-        const auto trace_shadow_rays = [&] { light_.trace_shadow_rays(world, job, tile, counters); };
+        const auto trace_shadow_rays = [&] {
+            light_.shadow_rays.resolve(world, job, samples, light_.found, tile, counters);
+        };
         shade({world, job, settings, rays, counters}, trace_shadow_rays);
         trace_shadow_rays();
     }
-    light_.finish(job, count, tile, counters);
+    light_.lamps.note_radiance(samples, light_.found);
+    accumulate(job, samples, light_.found, light_.alpha, tile, counters);
     stamp(job.profile, Stage::Film);
 }
 
@@ -57,7 +62,7 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
         Hit& hit = paths_.hits[i];
         if (world.materials().is_hidden_from_camera(hit)) {
             hit = intersect_one(world, job, RayKind::Primary, rays[i], counters);
-            light_.count_ray(paths_.slot[i]);
+            light_.found.count_ray(paths_.slot[i]);
         }
         if (world.traits().clips_far) hit = world.camera().cut_far(rays[i], hit);
     }
@@ -68,7 +73,7 @@ void PathWave::shade(const PathContext& context, const TraceShadowRays& trace_sh
     std::size_t kept = 0;
     for (std::size_t first = 0; first < active_; first += kBlockLanes) {
         shade_block(context, first, std::min(kBlockLanes, active_ - first), kept);
-        if (light_.has_full_batch()) trace_shadow_rays();
+        if (light_.shadow_rays.is_full()) trace_shadow_rays();
     }
     active_ = kept;
 }

@@ -24,7 +24,7 @@ class PathWave final : public IntegratorScratch {
 
     /// Returns the estimate of lamps in view, to be started before the job's samples are traced and finished after
     /// them.
-    [[nodiscard]] LampsInView& lamps() { return light_.lamps(); }
+    [[nodiscard]] LampsInView& lamps() { return light_.lamps; }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
                std::size_t count, TileBuffer& tile, RenderCounters& counters);
