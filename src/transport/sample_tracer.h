@@ -17,7 +17,7 @@ class SampleTracer {
     /// Returns what `SceneGeometry::occluded` says of `ray`.
     [[nodiscard]] virtual std::uint8_t occluded(const Ray& ray) = 0;
     /// Returns true if another estimate finds the emission of `hit`, which the ray from the camera has met.
-    [[nodiscard]] virtual bool finds_emission(const Hit& hit) const = 0;
+    [[nodiscard]] virtual bool finds_emission(const Hit& /*hit*/) const { return false; }
 };
 
 }  // namespace etendue

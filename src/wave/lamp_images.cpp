@@ -10,8 +10,8 @@ namespace {
 
 /// Returns which region along one axis `pixel` lies in.
 int region_of(int pixel) {
-    const int region = pixel / kLampRegion;
-    return pixel % kLampRegion < 0 ? region - 1 : region;
+    static_assert(kLampRegion == 32);
+    return pixel >> 5;
 }
 
 /// Returns the columns and rows of regions that cover `rect`.

@@ -63,12 +63,11 @@ void for_each_pixel(const PixelRect& rect, const Visit& visit) {
 [[nodiscard]] bool may_see_lamps(const World& world, const TileJob& job) {
     constexpr float kRounding = 1.0f;  // pixels
     const float reach = static_cast<float>(kReach) + job.filter->radius() + kRounding;
-    const auto on_film = [&](int x, int y, float beside) {
-        return Vec2f((static_cast<float>(x) + beside) / static_cast<float>(job.full_width),
-                     (static_cast<float>(y) + beside) / static_cast<float>(job.full_height));
+    const auto corner = [&](int x, int y, float beside) {
+        return on_film(job, Vec2f(static_cast<float>(x) + beside, static_cast<float>(y) + beside));
     };
-    return world.camera().may_show_lamps(on_film(job.rect.x0, job.rect.y0, -reach),
-                                         on_film(job.rect.x1, job.rect.y1, reach));
+    return world.camera().may_show_lamps(corner(job.rect.x0, job.rect.y0, -reach),
+                                         corner(job.rect.x1, job.rect.y1, reach));
 }
 
 /// Along one axis, how a place on the film is seen by the pixels around the one whose sample fell there.
@@ -237,8 +236,7 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
     const std::size_t count = positions_.size();
     film_.clear();
     for (const Vec2i& pixel : positions_)
-        film_.emplace_back((static_cast<float>(pixel.x) + 0.5f) / static_cast<float>(job_->full_width),
-                           (static_cast<float>(pixel.y) + 0.5f) / static_cast<float>(job_->full_height));
+        film_.push_back(on_film(*job_, {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f}));
     const std::vector<Vec2f> lens(count, Vec2f(0.5f, 0.5f));
     const std::vector<float> times(count, 0.5f);
     rays_.assign(count, {});

@@ -19,7 +19,6 @@ class OneKindTracer : public SampleTracer {
     [[nodiscard]] std::uint8_t occluded(const Ray& ray) override {
         return occluded_one(world_, job_, RayKind::Shadow, ray, counters_);
     }
-    [[nodiscard]] bool finds_emission(const Hit&) const override { return false; }
 
   private:
     const World& world_;

@@ -32,8 +32,6 @@ class PathWave final : public IntegratorScratch {
   private:
     /// Finds what the eye sees through clear surfaces where rays have hit what is hidden from it or too far away.
     void look_again(const World& world, const TileJob& job, RenderCounters& counters);
-    /// Shows a shadow or a hole in the place of surfaces that the camera does not see, and ends the paths there.
-    void replace_surfaces(const World& world, const TileJob& job, RenderCounters& counters);
     /// Shades all paths, block by block, and calls `trace_shadow_rays` whenever there are enough shadow rays for a
     /// batch.
     template <typename TraceShadowRays>
