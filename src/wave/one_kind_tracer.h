@@ -2,6 +2,9 @@
 #pragma once
 
 #include "transport/sample_tracer.h"
+#include "transport/shadow_catcher.h"
+#include "wave/aov/sample_light.h"
+#include "wave/profile/wave_profile.h"
 #include "wave/ray_batch.h"
 #include "wave/render_counters.h"
 
@@ -26,5 +29,18 @@ class OneKindTracer : public SampleTracer {
     RayKind kind_;
     RenderCounters& counters_;
 };
+
+/// Returns what the camera sees in the place of the surface that `ray`, within `interior`, has met at `hit`. The shadow
+/// rays are those of the sample with this key, and are counted in its `slot` of `light`.
+[[nodiscard]] inline SeenInPlace trace_seen_in_place(const World& world, const TileJob& job, const Ray& ray,
+                                                     const Interior& interior, const Hit& hit, SampleKey key,
+                                                     std::uint32_t slot, SampleLight& light, RenderCounters& counters) {
+    OneKindTracer tracer(world, job, RayKind::Shadow, counters);
+    const SeenInPlace seen =
+        seen_in_place(world, world.geometry().surface_point(hit), ray, interior, {job.sequence, key}, &tracer);
+    for (std::uint32_t i = 0; i < seen.rays; ++i) light.count_ray(slot);
+    if (job.profile != nullptr) job.profile->use().light_samples += seen.rays;
+    return seen;
+}
 
 }  // namespace etendue

@@ -24,11 +24,8 @@ void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hit
 
 void MetLight::on_replaced_surface(SubpathState& state, const Ray& ray, const Interior& interior, const Hit& hit) {
     const BdptJob& job = parts_.job;
-    OneKindTracer tracer(job.world(), job.job, RayKind::Shadow, parts_.counters);
-    const SeenInPlace seen = seen_in_place(job.world(), job.world().geometry().surface_point(hit), ray, interior,
-                                           {job.job.sequence, job.samples[state.slot].key}, &tracer);
-    for (std::uint32_t i = 0; i < seen.rays; ++i) parts_.found.count_ray(state.slot);
-    if (job.job.profile != nullptr) job.job.profile->use().light_samples += seen.rays;
+    const SeenInPlace seen = trace_seen_in_place(job.world(), job.job, ray, interior, hit, job.samples[state.slot].key,
+                                                 state.slot, parts_.found, parts_.counters);
     if (seen.is_hole) parts_.alpha[state.slot] = alpha_over_background(state.throughput);
     state.throughput *= seen.passed;
 }

@@ -151,11 +151,6 @@ void PathLight::evaluate(std::size_t k) {
     if (!is_black(light.radiance)) path.towards_light = path.scattering->evaluate(light.wi, TransportMode::Radiance);
 }
 
-void PathLight::count_light_samples(const TileJob& job, std::size_t slot, std::uint32_t samples) {
-    for (std::uint32_t i = 0; i < samples; ++i) found.count_ray(static_cast<std::uint32_t>(slot));
-    if (job.profile != nullptr) job.profile->use().light_samples += samples;
-}
-
 void PathLight::add_environment(const PathContext& context) {
     const World& world = context.world;
     const bool is_shown = !world.environment().met(true).empty();

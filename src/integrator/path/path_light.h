@@ -24,8 +24,6 @@ class PathLight {
     PathLight(const PathLight&) = delete;
     PathLight& operator=(const PathLight&) = delete;
 
-    /// Counts light samples that the sample in `slot` has taken with a shadow ray for each.
-    void count_light_samples(const TileJob& job, std::size_t slot, std::uint32_t samples);
     /// Adds the light of the environment to paths of the block that have left the scene.
     void add_environment(const PathContext& context);
     /// Adds the light of suns to those of them that scatter or mirror it.

@@ -64,11 +64,9 @@ void PathPlaces::set_up(const PathContext& context) {
 
 void PathPlaces::replace_surface(const PathContext& context, std::size_t i) {
     const World& world = context.world;
-    OneKindTracer tracer(world, context.job, RayKind::Shadow, context.counters);
     const Interior interior = world.traits().has_bodies ? paths_.interiors[i] : Interior();
-    const SeenInPlace seen = seen_in_place(world, world.geometry().surface_point(paths_.hits[i]), paths_.ray(i),
-                                           interior, {context.job.sequence, paths_.key(i)}, &tracer);
-    light_.count_light_samples(context.job, paths_.slot[i], seen.rays);
+    const SeenInPlace seen = trace_seen_in_place(world, context.job, paths_.ray(i), interior, paths_.hits[i],
+                                                 paths_.key(i), paths_.slot[i], light_.found, context.counters);
     if (seen.is_hole) light_.alpha[paths_.slot[i]] = alpha_over_background(paths_.throughput[i]);
     paths_.throughput.set(i, paths_.throughput[i] * seen.passed);
     paths_.hits[i] = {};
