@@ -1,6 +1,7 @@
 // How integrators trace: batches of one kind of rays, or single ones, counted, and timed where a profile is wanted.
 #pragma once
 
+#include "wave/aov/sample_light.h"
 #include "wave/ray_kind.h"
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
@@ -46,5 +47,18 @@ void occluded_batch(const World& world, const TileJob& job, RayKind kind, const 
 /// Returns what is in the way of `ray`, as `occluded_batch` does for many.
 [[nodiscard]] std::uint8_t occluded_one(const World& world, const TileJob& job, RayKind kind, const Ray& ray,
                                         RenderCounters& counters);
+
+/// Returns what the camera shows along `ray`, which has passed clear surfaces at most and has met `hit`: what lies
+/// behind surfaces that are hidden from it, unless that lies too far. A ray that looks again counts as one of the
+/// sample in `slot` of `light`.
+[[nodiscard]] inline Hit shown_hit(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
+                                   std::uint32_t slot, SampleLight& light, RenderCounters& counters) {
+    Hit shown = hit;
+    if (world.materials().is_hidden_from_camera(hit)) {
+        shown = intersect_one(world, job, RayKind::Primary, ray, counters);
+        light.count_ray(slot);
+    }
+    return world.traits().clips_far ? world.camera().cut_far(ray, shown) : shown;
+}
 
 }  // namespace etendue

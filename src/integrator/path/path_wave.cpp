@@ -57,15 +57,9 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
 void PathWave::look_again(const World& world, const TileJob& job, RenderCounters& counters) {
     if (!world.traits().hides_surfaces && !world.traits().clips_far) return;
     const RayColumns rays = paths_.rays(active_);
-    for (std::size_t i = 0; i < active_; ++i) {
-        if (!path_history::is_seen(paths_.history[i])) continue;
-        Hit& hit = paths_.hits[i];
-        if (world.materials().is_hidden_from_camera(hit)) {
-            hit = intersect_one(world, job, RayKind::Primary, rays[i], counters);
-            light_.found.count_ray(paths_.slot[i]);
-        }
-        if (world.traits().clips_far) hit = world.camera().cut_far(rays[i], hit);
-    }
+    for (std::size_t i = 0; i < active_; ++i)
+        if (path_history::is_seen(paths_.history[i]))
+            paths_.hits[i] = shown_hit(world, job, rays[i], paths_.hits[i], paths_.slot[i], light_.found, counters);
 }
 
 template <typename TraceShadowRays>

@@ -51,15 +51,10 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         } else {
             intersect_batch(job.world(), job.job, kind, rays_, hits_, counters);
         }
-        if (kind == RayKind::Bounce && job.world().traits().hides_surfaces)
+        if (end_ == SubpathEnd::AtEye && (job.world().traits().hides_surfaces || job.world().traits().clips_far))
             for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen && job.world().materials().is_hidden_from_camera(hits_[i])) {
-                    hits_[i] = intersect_one(job.world(), job.job, RayKind::Primary, rays_[i], counters);
-                    light.count_ray(states_[i].slot);
-                }
-        if (job.world().traits().clips_far && end_ == SubpathEnd::AtEye)
-            for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == kDirectlySeen) hits_[i] = job.world().camera().cut_far(rays_[i], hits_[i]);
+                if (states_[i].index == kDirectlySeen)
+                    hits_[i] = shown_hit(job.world(), job.job, rays_[i], hits_[i], states_[i].slot, light, counters);
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
