@@ -2,21 +2,43 @@
 #pragma once
 
 #include "wave/aov/sample_light.h"
+#include "wave/profile/wave_profile.h"
 #include "wave/ray_kind.h"
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace etendue {
 
-/// Finds the nearest surfaces along rays of one kind; `hits` is as long as `rays`.
-void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
-                     std::span<Hit> hits, RenderCounters& counters);
-void intersect_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays, std::span<Hit> hits,
-                     RenderCounters& counters);
+/// Returns where rays of this kind have ends.
+[[nodiscard]] RayEnds ends_of(RayKind kind);
+
+/// Has `intersect` find what `rays` hit, counts them, and times it for a profile.
+template <typename Batch, typename Intersect>
+void count_intersections(const TileJob& job, RayKind kind, const Batch& rays, std::span<const Hit> hits,
+                         RenderCounters& counters, const Intersect& intersect) {
+    WaveProfile* profile = job.profile;
+    if (profile != nullptr) profile->record(kind, rays);
+    intersect();
+    counters.rays[kind] += rays.size();
+    if (profile == nullptr) return;
+    profile->clock().stamp(Stage::Intersect, kind);
+    profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count_if(hits, &Hit::valid)));
+}
+
+/// Finds the nearest surfaces along rays of one kind, in a span or in RayColumns; `hits` is as long as `rays`.
+template <typename Batch>
+void intersect_batch(const World& world, const TileJob& job, RayKind kind, const Batch& rays, std::span<Hit> hits,
+                     RenderCounters& counters, QueryForm form = QueryForm::Best) {
+    count_intersections(job, kind, rays, hits, counters, [&] {
+        const Coherence coherence = is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent;
+        world.geometry().intersect(rays, hits, coherence, form, ends_of(kind));
+    });
+}
 
 /// Finds what rays of light paths light where backs are culled: see `find_lit_surface`. All spans are as long as
 /// `rays`.
@@ -35,11 +57,17 @@ inline void hide_unseen_hits(const World& world, std::span<const Ray> rays, std:
 
 /// Answers for each ray as `SceneGeometry::occluded` does: kOccluded, kPassesClear or kFree; `occluded` is as long as
 /// `rays`.
-void occluded_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays,
-                    std::span<std::uint8_t> occluded, RenderCounters& counters);
-
-/// Returns where rays of this kind have ends.
-[[nodiscard]] RayEnds ends_of(RayKind kind);
+template <typename Batch>
+void occluded_batch(const World& world, const TileJob& job, RayKind kind, const Batch& rays,
+                    std::span<std::uint8_t> occluded, RenderCounters& counters, QueryForm form = QueryForm::Best) {
+    WaveProfile* profile = job.profile;
+    if (profile != nullptr) profile->record(kind, rays);
+    world.geometry().occluded(rays, occluded, form, ends_of(kind));
+    counters.rays[kind] += rays.size();
+    if (profile == nullptr) return;
+    profile->clock().stamp(Stage::Occluded, kind);
+    profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count(occluded, kOccluded)));
+}
 
 /// Returns the nearest surface along `ray`, as `intersect_batch` does along many.
 [[nodiscard]] Hit intersect_one(const World& world, const TileJob& job, RayKind kind, const Ray& ray,
