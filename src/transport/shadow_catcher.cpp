@@ -4,7 +4,6 @@
 #include "sampling/warp.h"
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
-#include "transport/walk.h"
 
 #include <algorithm>
 

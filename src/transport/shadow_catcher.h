@@ -3,7 +3,7 @@
 
 #include "sampling/sampler.h"
 #include "transport/dimensions.h"
-#include "transport/sample_tracer.h"
+#include "transport/walk.h"
 #include "world/world.h"
 
 #include <cstdint>

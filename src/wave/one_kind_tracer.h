@@ -1,8 +1,8 @@
 // The rays of scalar algorithms that stand for one kind of a wide integrator's rays.
 #pragma once
 
-#include "transport/sample_tracer.h"
 #include "transport/shadow_catcher.h"
+#include "transport/walk.h"
 #include "wave/aov/sample_light.h"
 #include "wave/profile/wave_profile.h"
 #include "wave/ray_batch.h"

@@ -9,7 +9,6 @@
 #include "wave/lamps_in_view.h"
 #include "wave/photons.h"
 #include "wave/shadow_ray_queue.h"
-#include "wave/subpath/camera_splat.h"
 #include "wave/subpath/connectible_vertices.h"
 #include "wave/subpath/lamps_to_camera.h"
 #include "wave/subpath/subpath_wave.h"

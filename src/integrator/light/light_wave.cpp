@@ -5,7 +5,6 @@
 #include "wave/aov/first_hits.h"
 #include "wave/profile/wave_profile.h"
 #include "wave/ray_batch.h"
-#include "wave/subpath/camera_splat.h"
 
 namespace etendue {
 

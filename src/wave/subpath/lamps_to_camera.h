@@ -1,18 +1,40 @@
-// Where light subpaths begin, connected to the camera: lamps in view, found from their side.
+// What the camera sees of light subpaths, and where these begin, connected to it: lamps in view, found from their side.
 #pragma once
 
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
+#include "transport/light.h"
+#include "wave/film_repeats.h"
 #include "wave/number_pairs.h"
 #include "wave/shadow_ray_queue.h"
-#include "wave/subpath/camera_splat.h"
 #include "wave/subpath/subpath_wave.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace etendue {
+
+/// Says where in the image a point is seen besides.
+struct CameraView : LensView {
+    Vec2f pixel{0.0f, 0.0f};  ///< place in the full image, pixels
+    float depth = 0.0f;       ///< metres along the viewing direction; of deep images only
+};
+
+/// Returns how the camera sees `position` through the lens point made from `lens` in [0, 1)²; nothing if no pixel of
+/// the window would show it.
+[[nodiscard]] inline std::optional<CameraView> view_from_camera(const World& world, const TileJob& job,
+                                                                const Vec3f& position, Vec2f lens, float time) {
+    const std::optional<LensView> seen = view_from_lens(world, position, lens, time);
+    if (!seen) return std::nullopt;
+    CameraView view{*seen,
+                    {seen->camera.film.x * static_cast<float>(job.full_width),
+                     seen->camera.film.y * static_cast<float>(job.full_height)}};
+    if (!is_in_view(world, job, view.pixel)) return std::nullopt;
+    if (job.aovs != nullptr && job.aovs->layout.is_deep) view.depth = world.camera().depth(position, time);
+    return view;
+}
 
 class LampsToCamera {
   public:

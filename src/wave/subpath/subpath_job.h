@@ -5,8 +5,8 @@
 #include "core/rgb.h"
 #include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
+#include "transport/mis.h"
 #include "wave/camera_wave.h"
-#include "wave/subpath/subpath_state.h"
 
 #include <cstdint>
 #include <span>

@@ -1,12 +1,12 @@
-// What subpaths leave behind.
+// Where subpaths have got to, and what they leave behind.
 #pragma once
 
 #include "bsdf/bsdf.h"
 #include "transport/dimensions.h"
+#include "transport/mis.h"
 #include "wave/aov/path_words.h"
 #include "wave/subpath/diffuse_end.h"
 #include "wave/subpath/path_vertex.h"
-#include "wave/subpath/subpath_state.h"
 #include "world/world.h"
 
 #include <cstddef>
@@ -16,6 +16,13 @@
 #include <vector>
 
 namespace etendue {
+
+/// Holds a subpath under way; ray and interior stand in arrays of their own.
+struct SubpathState : SubpathProgress {
+    WordRange words;
+    std::uint32_t slot = 0;
+    bool lights_directly = true;  ///< every scattering but the last was a delta
+};
 
 /// Holds the bodies on the front and on the back of a vertex; in a medium both are alike.
 struct SideInteriors {

@@ -11,7 +11,6 @@
 #include "wave/profile/wave_profile.h"
 #include "wave/subpath/diffuse_lanes.h"
 #include "wave/subpath/subpath_job.h"
-#include "wave/subpath/subpath_state.h"
 #include "wave/subpath/subpath_vertices.h"
 
 #include <array>
