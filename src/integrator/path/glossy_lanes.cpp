@@ -35,10 +35,12 @@ void for_each_glossy_group(const BlockLanes& lanes, std::size_t paths, const Mov
 }  // namespace
 
 void GlossyLanes::take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices,
-                       const NumberPairs& directions) {
+                       const NumberPairs& directions, bool lights_only) {
     for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t to) {
         const auto put = [&](Column& column, Wide values) { column.store_unaligned(to, compress(values, which)); };
         const auto move = [&](const etendue::Column& from, Column& column) { put(column, from.load(l)); };
+        for_vector(move, lanes.light_wi, light_wi);
+        if (lights_only) return;
         for_vector(move, lanes.tangent, tangent);
         for_vector(move, lanes.bitangent, bitangent);
         for_vector(move, lanes.normal, normal);
@@ -49,33 +51,16 @@ void GlossyLanes::take(const BlockLanes& lanes, std::size_t paths, const NumberP
         put(u_bsdf.x, direction.x);
         put(u_bsdf.y, direction.y);
     });
-    take_lights(lanes, paths);
 }
 
-void GlossyLanes::take_lights(const BlockLanes& lanes, std::size_t paths) {
-    for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t to) {
-        const auto move = [&](const etendue::Column& from, Column& column) {
-            column.store_unaligned(to, compress(from.load(l), which));
-        };
-        for_vector(move, lanes.light_wi, light_wi);
-    });
-}
-
-void GlossyLanes::give_values(BlockLanes& lanes, std::size_t paths) const {
+void GlossyLanes::give(BlockLanes& lanes, std::size_t paths, bool with_samples) const {
     for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t from) {
         const auto move = [&](const Column& column, etendue::Column& to) {
             to.store(l, expand(column.load_unaligned(from), which, to.load(l)));
         };
         for_color(move, f_cos, lanes.f_cos);
         move(pdf, lanes.pdf);
-    });
-}
-
-void GlossyLanes::give_samples(BlockLanes& lanes, std::size_t paths) const {
-    for_each_glossy_group(lanes, paths, [&](std::size_t l, WideMask which, std::size_t from) {
-        const auto move = [&](const Column& column, etendue::Column& to) {
-            to.store(l, expand(column.load_unaligned(from), which, to.load(l)));
-        };
+        if (!with_samples) return;
         for_vector(move, next_direction, lanes.next_direction);
         for_color(move, next_weight, lanes.next_weight);
         move(next_pdf, lanes.next_pdf);

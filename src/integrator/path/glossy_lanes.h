@@ -50,18 +50,16 @@ struct GlossyLanes {
     }
 
     /// Moves what is known of those paths [0, paths) of a block that are on gloss here, side by side. `choices` are
-    /// their numbers for the choice of a lobe, x, `directions` for the direction.
-    void take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices, const NumberPairs& directions);
-    /// Moves the directions to the lights of those that `take` has moved here, if they have others now.
-    void take_lights(const BlockLanes& lanes, std::size_t paths);
+    /// their numbers for the choice of a lobe, x, `directions` for the direction. With `lights_only` the paths have
+    /// been moved here before, and only the directions to their lights are others now.
+    void take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices, const NumberPairs& directions,
+              bool lights_only);
     /// Evaluates the lobes of lanes [0, count), rounded up.
     void evaluate(std::size_t count);
     /// Evaluates and samples the lobes of lanes [0, count), rounded up.
     void evaluate_and_sample(std::size_t count);
-    /// Moves values back to the `paths` of `lanes` that are on gloss.
-    void give_values(BlockLanes& lanes, std::size_t paths) const;
-    /// Moves samples back to the `paths` of `lanes` that are on gloss.
-    void give_samples(BlockLanes& lanes, std::size_t paths) const;
+    /// Moves values, and samples if asked to, back to the `paths` of `lanes` that are on gloss.
+    void give(BlockLanes& lanes, std::size_t paths, bool with_samples) const;
 
   private:
     /// Returns the surfaces of lanes from `l` on, turned to `wo`.

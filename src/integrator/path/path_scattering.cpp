@@ -15,10 +15,9 @@ void PathScattering::evaluate_and_sample_by_lanes() {
     if (!block_.on_gloss.empty()) {
         for (std::size_t g = 0; g < block_.on_gloss.size(); ++g)
             glossy_.set_lobe(g, *block_.paths[block_.on_gloss[g]].glossy);
-        glossy_.take(block_.lanes, block_.count, block_.choices, block_.bsdf_direction);
+        glossy_.take(block_.lanes, block_.count, block_.choices, block_.bsdf_direction, false);
         glossy_.evaluate_and_sample(block_.on_gloss.size());
-        glossy_.give_values(block_.lanes, block_.count);
-        glossy_.give_samples(block_.lanes, block_.count);
+        glossy_.give(block_.lanes, block_.count, true);
     }
     block_.lanes.set_next_origins(block_.count);
 }
@@ -26,9 +25,9 @@ void PathScattering::evaluate_and_sample_by_lanes() {
 void PathScattering::evaluate_by_lanes() {
     block_.lanes.evaluate_diffuse<false>(block_.count);
     if (block_.on_gloss.empty()) return;
-    glossy_.take_lights(block_.lanes, block_.count);
+    glossy_.take(block_.lanes, block_.count, block_.choices, block_.bsdf_direction, true);
     glossy_.evaluate(block_.on_gloss.size());
-    glossy_.give_values(block_.lanes, block_.count);
+    glossy_.give(block_.lanes, block_.count, false);
 }
 
 void PathScattering::sample_bsdf(std::size_t k) {
