@@ -7,16 +7,6 @@
 
 namespace etendue {
 
-namespace {
-
-/// Returns how light that a subpath from the eye meets comes to the eye.
-LightKind kind_of_light_met_by(const SubpathState& state) {
-    if (state.index == kDirectlySeen) return LightKind::Seen;
-    return state.lights_directly ? LightKind::Direct : LightKind::Indirect;
-}
-
-}  // namespace
-
 void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
     find_first_hits(parts_.job.world(), parts_.job.job, parts_.job.samples, rays, hits, parts_.tile);
     parts_.lamps.note(parts_.job.samples, rays, hits, parts_.counters);
@@ -45,7 +35,7 @@ void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySu
     if (words.are_followed()) words.end_at_light(state.words, source, shares_);
     parts_.found.add(state.slot,
                      state.throughput * light * job.wavelength_weight(state.slot, state.is_dispersed) * share,
-                     kind_of_light_met_by(state), shares_);
+                     kind_of_met_light(state.index == kDirectlySeen, state.lights_directly), shares_);
 }
 
 void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,

@@ -13,16 +13,6 @@
 
 namespace etendue {
 
-namespace {
-
-/// Returns how light that a path of this `history` meets comes to the eye.
-LightKind kind_of_met_light(std::uint32_t history) {
-    if (path_history::is_seen(history)) return LightKind::Seen;
-    return (history & path_history::kIsDirect) != 0 ? LightKind::Direct : LightKind::Indirect;
-}
-
-}  // namespace
-
 LightReceiver PathLight::make_receiver(std::size_t k) const {
     const ShadedPath& path = block_.paths[k];
     if (!path.is_wide) return light_receiver(block_.lanes.position[k], *block_.singles[k].scattering);
@@ -321,7 +311,8 @@ void PathLight::queue_shadow_rays_in_medium(const PathContext& context, std::siz
 }
 
 void PathLight::add(std::size_t i, const Rgb& light, const AovSet::Source& source) {
-    const LightKind kind = kind_of_met_light(paths_.history[i]);
+    const LightKind kind =
+        kind_of_met_light(path_history::is_seen(paths_.history[i]), paths_.is(path_history::kIsDirect, i));
     shares_.clear();
     if (paths_.words.are_followed()) paths_.words.end_at_light(paths_.ranges[i], source, shares_);
     found.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);

@@ -26,6 +26,13 @@ enum class LightKind : std::uint8_t {
     Indirect,  ///< all other
 };
 
+/// Returns how light that a path from the eye meets comes to the eye, which sees it if `is_seen`; `is_direct` if all
+/// vertices but the last were deltas.
+[[nodiscard]] constexpr LightKind kind_of_met_light(bool is_seen, bool is_direct) {
+    if (is_seen) return LightKind::Seen;
+    return is_direct ? LightKind::Direct : LightKind::Indirect;
+}
+
 /// A path by the events that it consists of.
 struct SpelledPath {
     /// Spells the path from the eye to the light, such as "C D S S O", as an expression that matches it. A vertex that
