@@ -205,7 +205,7 @@ class RunMeasurement {
         for (const LongPath& path : waves.longest())
             run.longest.push_back({.x = path.x, .y = path.y, .sample = path.sample, .vertices = path.rays + 1});
         const SampleUse& use = waves.use();
-        run.bsdf_absorbed = share(use.bsdf_absorbed, use.bsdf_samples);
+        run.bsdf_absorbed = share(waves.eye_paths().paths(PathEnding::Absorbed), use.bsdf_samples);
         run.bsdf_met_light = share(use.bsdf_met_light, use.bsdf_samples + use.phase_samples);
     }
 

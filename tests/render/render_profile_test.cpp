@@ -83,7 +83,6 @@ TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
     EXPECT_EQ(use.bsdf_samples + use.phase_samples, profiled.counters.rays[RayKind::Bounce] +
                                                         waves.eye_paths().paths(PathEnding::Absorbed) +
                                                         waves.eye_paths().paths(PathEnding::Roulette));
-    EXPECT_EQ(use.bsdf_absorbed, waves.eye_paths().paths(PathEnding::Absorbed));
     EXPECT_LE(use.bsdf_met_light, use.bsdf_samples + use.phase_samples);
     EXPECT_EQ(use.bsdf_met_light > 0, name != "light") << "subpaths from lights are none of the eye's";
     EXPECT_EQ(use.light_samples > 0, name == "path" || name == "bdpt");

@@ -56,9 +56,7 @@ void PathScattering::count_sample(const PathContext& context, std::size_t k, con
     WaveProfile* const profile = context.job.profile;
     if (profile == nullptr) return;
     ++profile->use().bsdf_samples;
-    if (!is_black(sample.weight)) return;
-    ++profile->use().bsdf_absorbed;
-    paths_.end_path(context, block_.first + k, PathEnding::Absorbed);
+    if (is_black(sample.weight)) paths_.end_path(context, block_.first + k, PathEnding::Absorbed);
 }
 
 BsdfSample PathScattering::sample_of_lane(std::size_t k) const {

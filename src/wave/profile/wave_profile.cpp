@@ -51,7 +51,6 @@ void WaveProfile::add(const WaveProfile& other) {
     for (const LongPath& path : other.longest_) keep(longest_, path);
     use_.light_samples += other.use_.light_samples;
     use_.bsdf_samples += other.use_.bsdf_samples;
-    use_.bsdf_absorbed += other.use_.bsdf_absorbed;
     use_.phase_samples += other.use_.phase_samples;
     use_.bsdf_met_light += other.use_.bsdf_met_light;
 }

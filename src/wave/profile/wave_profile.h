@@ -33,7 +33,6 @@ struct SampleUse {
     std::uint64_t light_samples = 0;  ///< samples of next-event estimation
     // Of eye paths:
     std::uint64_t bsdf_samples = 0;
-    std::uint64_t bsdf_absorbed = 0;   ///< without weight
     std::uint64_t phase_samples = 0;   ///< in media
     std::uint64_t bsdf_met_light = 0;  ///< samples of either whose rays met a lamp or an environment that shines
 };

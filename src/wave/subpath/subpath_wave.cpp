@@ -212,10 +212,8 @@ void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
 
 bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight,
                           bool is_delta) {
-    SampleUse* const use = job.job.profile != nullptr && end_ == SubpathEnd::AtEye ? &job.job.profile->use() : nullptr;
-    if (use != nullptr) ++use->bsdf_samples;
+    if (job.job.profile != nullptr && end_ == SubpathEnd::AtEye) ++job.job.profile->use().bsdf_samples;
     if (is_black(weight)) {
-        if (use != nullptr) ++use->bsdf_absorbed;
         end_path(job, i, PathEnding::Absorbed);
         return false;
     }
