@@ -4,6 +4,7 @@
 #include "core/ray.h"
 #include "transport/dimensions.h"
 #include "wave/aov/sample_light.h"
+#include "wave/profile/wave_profile.h"
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
 #include "world/world.h"
@@ -50,6 +51,13 @@ enum class SampleOrder : std::uint8_t {
 [[nodiscard]] inline DroppedSample located(const TileJob& job, const CameraSample& sample) {
     const Vec2i position = pixel_position(job, sample.pixel);
     return {position.x, position.y, sample.key.index};
+}
+
+/// Tells the profile of `job`, if there is one, of the end of the eye path of `sample` after `rays` rays.
+inline void end_eye_path(const TileJob& job, const CameraSample& sample, PathEnding ending, int rays) {
+    if (job.profile == nullptr) return;
+    const Vec2i pixel = pixel_position(job, sample.pixel);
+    job.profile->end_eye_path(ending, {pixel.x, pixel.y, sample.key.index, rays});
 }
 
 /// Makes the camera rays of samples [first, first + rays.size()) of the job.

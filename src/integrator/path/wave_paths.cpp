@@ -23,13 +23,6 @@ void WavePaths::begin(const World& world, const TileJob& job, std::span<const Ra
             set_cone(i, camera_cone(world, job.full_width, job.full_height, rays[i]));
 }
 
-void WavePaths::end_path(const PathContext& context, std::size_t i, PathEnding ending) const {
-    WaveProfile* const profile = context.job.profile;
-    if (profile == nullptr) return;
-    const Vec2i pixel = pixel_position(context.job, samples[slot[i]].pixel);
-    profile->end_eye_path(ending, {pixel.x, pixel.y, index[i], context.rays});
-}
-
 // By value, so that no store to a column can be taken for one to `survivors`.
 void WavePaths::move(BlockSurvivors survivors, const SceneTraits& traits) {
     for (auto* column : {&origin.x, &origin.y, &origin.z, &direction.x, &direction.y, &direction.z, &throughput.r,

@@ -5,7 +5,7 @@
 #include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
 #include "wave/aov/path_words.h"
-#include "wave/profile/wave_profile.h"
+#include "wave/camera_wave.h"
 #include "wave/tile_job.h"
 #include "world/world.h"
 
@@ -79,7 +79,9 @@ struct WavePaths : PathColumns {
     }
 
     /// Tells the profile, if there is one, of the end of path `i`.
-    void end_path(const PathContext& context, std::size_t i, PathEnding ending) const;
+    void end_path(const PathContext& context, std::size_t i, PathEnding ending) const {
+        end_eye_path(context.job, samples[slot[i]], ending, context.rays);
+    }
     /// Moves all that `survivors` keep to where they go on.
     void move(BlockSurvivors survivors, const SceneTraits& traits);
 

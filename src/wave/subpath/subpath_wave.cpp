@@ -313,12 +313,10 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
 }
 
 void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const {
-    WaveProfile* const profile = job.job.profile;
-    if (profile == nullptr) return;
-    if (end_ == SubpathEnd::AtLight) return profile->end_light_path(ending, bounce_);
-    const CameraSample& sample = job.samples[states_[i].slot];
-    const Vec2i pixel = pixel_position(job.job, sample.pixel);
-    profile->end_eye_path(ending, {pixel.x, pixel.y, sample.key.index, bounce_});
+    if (end_ == SubpathEnd::AtEye)
+        end_eye_path(job.job, job.samples[states_[i].slot], ending, bounce_);
+    else if (job.job.profile != nullptr)
+        job.job.profile->end_light_path(ending, bounce_);
 }
 
 void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::size_t count, std::size_t& kept) {
