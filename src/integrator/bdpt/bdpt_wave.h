@@ -64,15 +64,7 @@ class BdptWave final : public IntegratorScratch {
         Scattering::TwoWayValue at_eye{};
         Scattering::TwoWayValue at_light{};
     };
-    // Those of plain diffuse surfaces, whose lanes are computed at once.
-    struct WideToLight {
-        const ConnectibleVertex* vertex;
-        std::uint32_t light;  ///< light that was chosen
-    };
-    struct WideToCamera {
-        const ConnectibleVertex* vertex;
-        CameraView view;
-    };
+    /// A connection of plain diffuse surfaces, whose lanes are computed at once.
     struct WideBetween {
         const ConnectibleVertex* eye;
         const ConnectibleVertex* light;
@@ -129,14 +121,13 @@ class BdptWave final : public IntegratorScratch {
     LightVertices light_vertices_;
     // Of the block at hand.
     std::vector<ToLight> to_lights_;
-    std::vector<ToCamera> to_cameras_;
+    std::vector<ToCamera> to_cameras_, wide_to_cameras_;
     std::vector<Between> between_;
     std::vector<LightReceiver> receivers_;
     std::vector<Vec2f> choosing_;  ///< numbers for the choice of a light
     std::vector<LightTree::Choice> choices_;
     std::vector<std::size_t> lit_;  ///< vertices that the numbers and choices are for, as places in `to_light_`
-    std::vector<WideToLight> wide_to_lights_;
-    std::vector<WideToCamera> wide_to_cameras_;
+    std::vector<std::size_t> wide_to_lights_;  ///< those of them, as places in `lit_`, whose lanes are computed at once
     std::array<WideBetween, kBlockLanes> wide_between_{};
     std::size_t wide_between_count_ = 0;
     ToLightLanes to_light_lanes_;

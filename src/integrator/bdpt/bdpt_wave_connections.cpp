@@ -67,7 +67,7 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         }
         const std::size_t lane = wide_to_lights_.size();
         const MeshLight::TriangleChoice& on_light = triangles[i];
-        wide_to_lights_.push_back({&vertex, choice.light});
+        wide_to_lights_.push_back(i);
         to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
         to_light_lanes_.eye.set(lane, eye_.vertices().diffuse_end(vertex));
         to_light_lanes_.front.set(lane, *mesh, on_light);
@@ -109,10 +109,11 @@ void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
     to_light_lanes_.connect(wide_to_lights_.size(), job.rule(), job.world().emitters().aim(job.mis.aims));
     if (!asks_for_each(job)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
-        const auto& [vertex, light] = wide_to_lights_[lane];
+        const std::size_t i = wide_to_lights_[lane];
+        const ConnectibleVertex& vertex = to_light_[lit_[i]];
         if (const Rgb brought = to_light_lanes_.contribution[lane]; !is_black(brought))
-            queue(job, *vertex, light, to_light_lanes_.wi[lane], job.timed(to_light_lanes_.ray(lane), vertex->slot),
-                  brought, wide_light_connections_);
+            queue(job, vertex, choices_[i].light, to_light_lanes_.wi[lane],
+                  job.timed(to_light_lanes_.ray(lane), vertex.slot), brought, wide_light_connections_);
     }
 }
 
@@ -147,7 +148,7 @@ void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::siz
             continue;
         }
         const std::size_t lane = wide_to_cameras_.size();
-        wide_to_cameras_.push_back({&vertex, *view});
+        wide_to_cameras_.push_back({&vertex, *view, {}});
         to_camera_lanes_.set_sample(lane, vertex.slot, vertex.index <= 1);
         to_camera_lanes_.light.set(lane, end);
         to_camera_lanes_.lens.set(lane, view->camera.lens);
@@ -190,7 +191,7 @@ void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
                 });
             });
     for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
-        const auto& [vertex, view] = wide_to_cameras_[lane];
+        const auto& [vertex, view, scattered] = wide_to_cameras_[lane];
         if (const Rgb brought = to_camera_lanes_.contribution[lane]; !is_black(brought))
             queue(job, *vertex, view, job.timed(to_camera_lanes_.ray(lane), vertex->slot), brought,
                   wide_camera_connections_);
