@@ -1,10 +1,9 @@
 // All integrators, in the order in which --help lists them.
 #include "integrator/bdpt/bdpt_integrator.h"
-#include "integrator/debug/debug_integrators.h"
 #include "integrator/integrator.h"
 #include "integrator/light/light_integrator.h"
 #include "integrator/path/path_integrator.h"
-#include "integrator/whitted/whitted_integrator.h"
+#include "integrator/scalar_integrators.h"
 
 #include <algorithm>
 

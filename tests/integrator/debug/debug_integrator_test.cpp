@@ -1,5 +1,5 @@
-#include "integrator/debug/debug_integrators.h"
 #include "integrator/render_tile.h"
+#include "integrator/scalar_integrators.h"
 #include "world/test_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // Whitted's ray tracing finds what path tracing does in two kinds of scenes: diffuse ones after one bounce, and ones of
 // mirrors and smooth glass alone. (Its closed forms are in closed_form_test.cpp.)
-#include "integrator/whitted/whitted_integrator.h"
-
 #include "integrator/render_tile.h"
+#include "integrator/scalar_integrators.h"
 #include "world/test_scene.h"
 
 #include <cmath>

@@ -1,0 +1,28 @@
+// The integrators that trace one sample after the other.
+#pragma once
+
+#include "integrator/scalar_integrator.h"
+
+namespace etendue {
+
+/// Traces rays as Whitted did (transport/whitted.h).
+struct WhittedIntegrator final : ScalarIntegrator {
+    explicit WhittedIntegrator(const IntegratorSettings& settings) : ScalarIntegrator(settings, Shows::Light) {}
+    [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
+    [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
+};
+
+/// Shows no light but, to find out what is wrong, shading normals in world space, each component mapped from [-1, 1] to
+/// [0, 1].
+struct NormalsIntegrator final : ScalarIntegrator {
+    explicit NormalsIntegrator(const IntegratorSettings& settings) : ScalarIntegrator(settings, Shows::NoLight) {}
+    [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
+};
+
+/// Shows no light but, to find out what is wrong, the share of light that surfaces scatter, seen from the eye.
+struct AlbedoIntegrator final : ScalarIntegrator {
+    explicit AlbedoIntegrator(const IntegratorSettings& settings) : ScalarIntegrator(settings, Shows::NoLight) {}
+    [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
+};
+
+}  // namespace etendue
