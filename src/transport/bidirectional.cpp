@@ -5,21 +5,13 @@
 
 namespace etendue {
 
-namespace {
-
-SubpathSample subpath_sample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
-                             const BidirectionalSetup& setup) {
-    return {{world, Raised{settings.heuristic}, setup.samples_per_light_path, setup.merging, settings.aimed_emission},
-            settings.lengths,
-            eye,
-            setup.shared};
-}
-
-}  // namespace
-
 BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_sample,
                                        const IntegratorSettings& settings, const BidirectionalSetup& setup) {
-    const SubpathSample sample = subpath_sample(world, eye_sample, settings, setup);
+    const SubpathSample sample{
+        {world, Raised{settings.heuristic}, setup.samples_per_light_path, setup.merging, settings.aimed_emission},
+        settings.lengths,
+        eye_sample,
+        setup.shared};
     const SparedRays spared = spared_rays(settings.lengths.roulette_depth);
 
     BidirectionalLight found;
@@ -47,18 +39,6 @@ BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_
         for (const SubpathVertex& at_light : light) keep(light_connected(sample, at_eye, at_light));
     for (const SubpathVertex& vertex : light) show(light_at_lens(sample, vertex));
     return found;
-}
-
-std::vector<Photon> photons_of_sample(const World& world, const EyeSample& eye_sample,
-                                      const IntegratorSettings& settings, const BidirectionalSetup& setup) {
-    const SubpathSample sample = subpath_sample(world, eye_sample, settings, setup);
-    const std::optional<Subpath> from_light = begin_subpath_at_light(sample);
-    std::vector<Photon> photons;
-    if (!from_light || !leads_to_camera(sample, *from_light)) return photons;
-    for (const SubpathVertex& vertex :
-         follow_subpath(sample, *from_light, spared_rays(settings.lengths.roulette_depth).of_light))
-        if (vertex.merging.merges) photons.push_back(make_photon(sample.mis, vertex, vertex.surface.geometric_normal));
-    return photons;
 }
 
 }  // namespace etendue

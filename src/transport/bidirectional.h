@@ -33,9 +33,4 @@ struct BidirectionalLight {
                                                      const IntegratorSettings& settings,
                                                      const BidirectionalSetup& setup = {});
 
-/// Returns the photons that the light subpath of the sample leaves where subpaths merge.
-[[nodiscard]] std::vector<Photon> photons_of_sample(const World& world, const EyeSample& sample,
-                                                    const IntegratorSettings& settings,
-                                                    const BidirectionalSetup& setup);
-
 }  // namespace etendue

@@ -4,7 +4,9 @@
 #include "transport/bidirectional.h"
 #include "transport/light.h"
 #include "transport/path.h"
+#include "transport/roulette.h"
 #include "transport/scattered_cone.h"
+#include "transport/subpath.h"
 #include "wave/camera_wave.h"
 #include "wave/photons.h"
 
@@ -67,6 +69,24 @@ Rgb scalar_light(const World& world, const OracleRun& run, const TileJob& job, c
     return path_radiance(world, sample, settings);
 }
 
+/// Returns the photons that the light subpath of `eye` leaves where subpaths merge.
+std::vector<Photon> photons_of_sample(const World& world, const OracleRun& run, const TileJob& job,
+                                      const EyeSample& eye) {
+    const IntegratorSettings settings = settings_of(run);
+    const SubpathSample sample{
+        {.world = world, .raised = Raised{settings.heuristic}, .merging = job.merging, .aims = settings.aimed_emission},
+        settings.lengths,
+        eye,
+        shared_key(job, eye.numbers.key)};
+    const std::optional<Subpath> from_light = begin_subpath_at_light(sample);
+    std::vector<Photon> photons;
+    if (!from_light || !leads_to_camera(sample, *from_light)) return photons;
+    for (const SubpathVertex& vertex :
+         follow_subpath(sample, *from_light, spared_rays(settings.lengths.roulette_depth).of_light))
+        if (vertex.merging.merges) photons.push_back(make_photon(sample.mis, vertex, vertex.surface.geometric_normal));
+    return photons;
+}
+
 bool differ(const Rgb& a, const Rgb& b) {
     const auto apart = [](float x, float y) {
         return !(std::abs(x - y) <= kRounding * std::max(std::abs(x), std::abs(y)) + kBlack);
@@ -103,7 +123,7 @@ FoundLight scalar_samples(const World& world, const OracleRun& run, const TileJo
                                .lens = samples[i].lens};
         found.radiance[samples[i].pixel] = scalar_light(world, run, job, sample, on_film);
         if (!job.merging.merges()) continue;
-        const auto photons = photons_of_sample(world, sample, settings_of(run), setup_of(job, samples[i].key));
+        const auto photons = photons_of_sample(world, run, job, sample);
         found.photons.insert(found.photons.end(), photons.begin(), photons.end());
     }
     for (const FilmLight& light : on_film) {
