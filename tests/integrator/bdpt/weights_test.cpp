@@ -5,6 +5,7 @@
 #include "integrator/bdpt/reference_weights.h"
 #include "integrator/bdpt/weight_comparison.h"
 #include "wave/subpath/subpath_wave.h"
+#include "world/test_scene.h"
 
 #include <algorithm>
 #include <cmath>
