@@ -92,7 +92,7 @@ static_assert(sizeof(Photon) <= kMostPhotonBytes);
 /// Returns the photon of a light subpath that arrives at `vertex`, which merges, on a surface with the normal
 /// `geometric_normal`; without words.
 template <typename AnyVertex>
-[[nodiscard]] inline Photon make_photon(const MisContext& mis, const AnyVertex& vertex, const Vec3f& geometric_normal) {
+[[nodiscard]] inline Photon make_photon(const AnyVertex& vertex, const Vec3f& geometric_normal) {
     // The density of photons is one per area of the surface they lie on, that of directions one per area across the
     // ray. The normal of the eye's vertex, on another facet, may be square to a ray that lights this one.
     const float cosine = abs_dot(vertex.wo, geometric_normal);
@@ -101,7 +101,7 @@ template <typename AnyVertex>
     return {.position = vertex.position,
             .direction = vertex.wo,
             .throughput = per_light > 0.0f ? vertex.throughput * (1.0f / per_light) : Rgb(),
-            .a = static_cast<float>(vertex.densities.a - own_merge(mis, vertex.position, vertex.merging.opacity)),
+            .a = static_cast<float>(vertex.densities.a),
             .b = static_cast<float>(vertex.densities.b),
             .edges = vertex.next_edges - 1,
             .sheet = vertex.merging.sheet,
@@ -155,10 +155,11 @@ template <typename AnyVertex>
                                             const Scattering::TwoWayValue& scattered, double within) {
     const double expected = within * static_cast<double>(vertex.merging.opacity);
     const SubpathDensities of_photon{.a = static_cast<double>(photon.a), .b = static_cast<double>(photon.b)};
-    const double fewer = of_photon.fewer(mis.raised, static_cast<double>(scattered.pdf_solid_angle)) +
-                         vertex.densities.fewer(mis.raised, static_cast<double>(scattered.reverse_pdf_solid_angle)) -
-                         own_merge(mis, vertex.position, vertex.merging.opacity);
-    return std::max(0.0, fewer) / mis.raised(expected);
+    const auto forward = static_cast<double>(scattered.pdf_solid_angle);
+    const auto backward = static_cast<double>(scattered.reverse_pdf_solid_angle);
+    const double fewer =
+        of_photon.fewer(mis.raised, forward) + vertex.densities.fewer_without_own_merge(mis.raised, backward);
+    return fewer / mis.raised(expected);
 }
 
 /// Returns the light that an eye subpath takes from `photon` at `vertex`, which scatters it towards the photon by

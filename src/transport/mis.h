@@ -50,12 +50,19 @@ struct MisContext {
 struct SubpathDensities {
     double a = 0.0;
     double b = 0.0;
-    double merge_a = 0.0;  ///< eta at the vertex that merges, otherwise 0
-    double merge_b = 0.0;  ///< b of the merge at vertices after that one
+    double merge_a = 0.0;    ///< eta at the vertex that merges, otherwise 0
+    double merge_b = 0.0;    ///< b of the merge at vertices after that one
+    double own_merge = 0.0;  ///< eta at the vertex where all vertices merge, otherwise 0
 
     /// Returns the sum over the strategies with fewer vertices on this side, but for the raised density per area with
     /// which the other side makes this vertex. `turning_back` is q.
-    [[nodiscard]] double fewer(const Raised& raised, double turning_back) const { return a + b * raised(turning_back); }
+    [[nodiscard]] double fewer(const Raised& raised, double turning_back) const {
+        return own_merge + fewer_without_own_merge(raised, turning_back);
+    }
+    /// Returns `fewer` without the merge at the vertex itself.
+    [[nodiscard]] double fewer_without_own_merge(const Raised& raised, double turning_back) const {
+        return a + b * raised(turning_back);
+    }
     /// Returns what the merge adds to `fewer` on paths whose light has come by a delta.
     [[nodiscard]] double merged(const Raised& raised, double turning_back) const {
         return merge_a + merge_b * raised(turning_back);
@@ -196,19 +203,15 @@ struct ArrivalForMerging {
     return false;
 }
 
-/// Returns what `a` holds of the merge at a vertex itself, at `position` on a surface that stops the share `opacity`:
-/// something only where all vertices merge.
-[[nodiscard]] inline double own_merge(const MisContext& mis, const Vec3f& position, float opacity) {
-    return mis.merging.at == MergeAt::Everywhere ? mis.raised(mis.merging.expected(position, opacity)) : 0.0;
-}
-
 /// Adds to `arrived` what the weights need of a vertex at `position` at which a subpath from `end` merges, on a surface
 /// that stops the share `opacity`.
 inline void count_merge(const MisContext& mis, SubpathEnd end, const Vec3f& position, float opacity,
                         SubpathDensities& arrived) {
-    arrived.a += own_merge(mis, position, opacity);
-    if (mis.merging.at == MergeAt::SeenByDeltas && end == SubpathEnd::AtEye)
-        arrived.merge_a = mis.raised(mis.merging.expected(position, opacity));
+    const double expected = mis.raised(mis.merging.expected(position, opacity));
+    if (mis.merging.at == MergeAt::Everywhere)
+        arrived.own_merge = expected;
+    else if (end == SubpathEnd::AtEye)
+        arrived.merge_a = expected;
 }
 
 /// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.

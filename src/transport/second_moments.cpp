@@ -143,7 +143,7 @@ void ComparedSample::append_photons(Photons& photons) const {
     for (std::size_t i = 0; i < all_.size(); ++i) {
         const SubpathVertex& vertex = all_[i];
         if (!vertex.merging.merges) continue;
-        photons.all.push_back(make_photon(with_all_.mis, vertex, vertex.surface.geometric_normal));
+        photons.all.push_back(make_photon(vertex, vertex.surface.geometric_normal));
         place_of(photons.all.back()) = static_cast<std::uint32_t>(photons.all.size() - 1);
         photons.unmerged.push_back(unmerged_[i].densities);
         photons.of_path_tracing.push_back(of_path_tracing_[i].densities);
@@ -213,7 +213,7 @@ void ComparedSample::compare_merged(const EyeSubpaths& eye, const PhotonMap& map
                 Photon with = photon;
                 with.a = static_cast<float>(of_photon.a);
                 with.b = static_cast<float>(of_photon.b);
-                return others_of_merge(without_merges_.mis, vertex, with, scattered, within);
+                return others_of_merge(with_all_.mis, vertex, with, scattered, within);
             };
             sum.add(compared(light, others(no_others, photons.of_path_tracing[place_of(photon)]),
                              others(eye.unmerged.vertices[i], photons.unmerged[place_of(photon)])));

@@ -104,19 +104,6 @@ std::vector<Slot> all_slots(const WorldData& data) {
     return slots;
 }
 
-/// Fills WorldData::size_of_slot.
-void measure_slots(WorldData& data) {
-    const std::vector<Slot> slots = all_slots(data);
-    data.size_of_slot.resize(slots.size());
-    for (const Slot& slot : slots) {
-        const Instance& instance = data.instances[slot.instance];
-        Bounds bounds;
-        for (const Vec3f& p : data.geometries[slot.geometry].positions)
-            bounds.extend(instance.baked ? p : transform_point(instance.to_world, p));
-        data.size_of_slot[slot.index] = bounds.empty() ? 0.0f : length(bounds.size());
-    }
-}
-
 bool moves(const WorldData& data, const Slot& slot) {
     return data.instances[slot.instance].motion != kNone || !data.geometries[slot.geometry].motion.empty();
 }
@@ -232,7 +219,6 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
                            .culls_back = material.culls_back});
     }
     data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
-    measure_slots(data);
     Touches touches = find_touches(data, threads);
     if (move_sheets_apart(touches, data)) {
         data.bvh.reset();  // memory need not hold both

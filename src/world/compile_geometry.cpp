@@ -261,6 +261,14 @@ void bake_instances(const SceneDesc& scene, const ThreadPool& threads, WorldData
     });
 }
 
+/// Returns the diagonal of `bounds` where `to_world` places it, metres.
+float placed_size(const Bounds& bounds, const Mat4f& to_world) {
+    const Vec3f size = bounds.size();
+    return std::hypot(length(transform_vector(to_world, {size.x, 0.0f, 0.0f})),
+                      length(transform_vector(to_world, {0.0f, size.y, 0.0f})),
+                      length(transform_vector(to_world, {0.0f, 0.0f, size.z})));
+}
+
 void bound_instances(const ThreadPool& threads, WorldData& data) {
     std::vector<Bounds> local_bounds(data.geometries.size());
     threads.parallel_for(data.geometries.size(),
@@ -269,6 +277,8 @@ void bound_instances(const ThreadPool& threads, WorldData& data) {
         const std::span<const Mat4f> here(&instance.to_world, 1);
         extend_bounds(instance, instance.motion == kNone ? here : data.motions[instance.motion], local_bounds,
                       data.bounds);
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
+            data.size_of_slot.push_back(placed_size(local_bounds[instance.first_geometry + g], instance.to_world));
     }
 }
 

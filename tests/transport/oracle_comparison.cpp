@@ -83,7 +83,7 @@ std::vector<Photon> photons_of_sample(const World& world, const OracleRun& run, 
     if (!from_light || !leads_to_camera(sample, *from_light)) return photons;
     for (const SubpathVertex& vertex :
          follow_subpath(sample, *from_light, spared_rays(settings.lengths.roulette_depth).of_light))
-        if (vertex.merging.merges) photons.push_back(make_photon(sample.mis, vertex, vertex.surface.geometric_normal));
+        if (vertex.merging.merges) photons.push_back(make_photon(vertex, vertex.surface.geometric_normal));
     return photons;
 }
 

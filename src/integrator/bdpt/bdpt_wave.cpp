@@ -92,8 +92,7 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
     light_.trace(subpaths, spared_rays(settings.lengths.roulette_depth).of_light, nullptr, found_, counters);
     for (const PathVertex& vertex : light_.vertices().all())
         if (vertex.merging.merges)
-            photons.add(make_photon(subpaths.mis, vertex, vertex.geometric_normal), light_.vertices().words(),
-                        vertex.words);
+            photons.add(make_photon(vertex, vertex.geometric_normal), light_.vertices().words(), vertex.words);
     stamp(job.profile, Stage::Material);
 }
 

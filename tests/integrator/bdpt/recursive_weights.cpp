@@ -231,14 +231,12 @@ class GivenPath {
     [[nodiscard]] double weight_of_merge(std::size_t i) const {
         if (!light_.merges[i] || !eye_.merges[i]) return 0.0;
         const Value& value = eye_.values[i];
-        const double fewer =
-            light_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.pdf_solid_angle)) +
-            eye_.vertices[i].densities.fewer(mis_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
-        const Vec3f& position = path_.inner[i]->position;
-        const double own = own_merge(mis_, position, light_.vertices[i].merging.opacity) +
-                           own_merge(mis_, position, eye_.vertices[i].merging.opacity);
-        const double expected = mis_.merging.expected(position, eye_.vertices[i].merging.opacity);
-        return 1.0 / (1.0 + std::max(0.0, fewer - own) / mis_.raised(expected));
+        const double fewer = light_.vertices[i].densities.fewer_without_own_merge(
+                                 mis_.raised, static_cast<double>(value.pdf_solid_angle)) +
+                             eye_.vertices[i].densities.fewer_without_own_merge(
+                                 mis_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
+        const double expected = mis_.merging.expected(path_.inner[i]->position, eye_.vertices[i].merging.opacity);
+        return 1.0 / (1.0 + fewer / mis_.raised(expected));
     }
 
     const MisContext& mis_;
