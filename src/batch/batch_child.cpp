@@ -140,6 +140,7 @@ SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& op
                 if (name.is_string()) found.push_back(name.get<std::string>());
         return found;
     };
+    names.shown_camera = text_at(json, "/image/camera");
     names.variants = list("variants");
     names.cameras = list("cameras");
     // Cameras whose names say nothing are found by their nodes.

@@ -24,6 +24,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
+#include <strings.h>
 
 namespace etendue {
 
@@ -126,6 +127,12 @@ struct ScenePart {
     std::string label{};           ///< follows the scene's name in what people read: " variant red camera front"
 };
 
+/// Returns " camera front", or " Camera.001" if the name says itself what it is the name of.
+std::string labelled(const std::string& what, const std::string& name) {
+    const bool says_itself = ::strncasecmp(name.c_str(), what.c_str(), what.size()) == 0;
+    return says_itself ? " " + name : fmt::format(" {} {}", what, name);
+}
+
 /// Returns an entry for each variant and camera of a scene, or the scene as it is.
 std::vector<ScenePart> parts_of(const fs::path& scene, const SceneNames& names) {
     std::vector<ScenePart> parts{{}};
@@ -135,7 +142,7 @@ std::vector<ScenePart> parts_of(const fs::path& scene, const SceneNames& names) 
         parts.reserve(variants.size());
         for (std::size_t i = 0; i < variants.size(); ++i)
             parts.push_back(
-                {.variant = variants[i], .variant_suffix = suffixes[i], .label = " variant " + variants[i]});
+                {.variant = variants[i], .variant_suffix = suffixes[i], .label = labelled("variant", variants[i])});
     }
     const auto cameras = distinct_names(scene, names.cameras, "camera");
     if (cameras.empty()) return parts;
@@ -146,24 +153,37 @@ std::vector<ScenePart> parts_of(const fs::path& scene, const SceneNames& names) 
             ScenePart& one = all.emplace_back(part);
             one.camera = cameras[i];
             one.camera_suffix = suffixes[i];
-            one.label += " camera " + cameras[i];
+            one.label += labelled("camera", cameras[i]);
         }
     return all;
 }
 
-constexpr std::array<std::string_view, 4> kPlaceholders{"{scene}", "{variant}", "{camera}", "{frame}"};
+constexpr std::string_view kCamera = "{camera}";
+constexpr std::array<std::string_view, 4> kPlaceholders{"{scene}", "{variant}", kCamera, "{frame}"};
 
-std::string replaced(std::string text, std::string_view what, std::string_view with) {
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-        text.replace(at, what.size(), with);
-    return text;
-}
-
-/// Puts `value` in the place of `placeholder`; where there is no value, what parts it from what comes before goes, too.
-std::string put(std::string name, std::string_view placeholder, const std::string& value) {
-    if (value.empty())
-        for (const char* mark : {".", "-", "_"}) name = replaced(name, mark + std::string(placeholder), "");
-    return replaced(name, placeholder, value);
+/// Returns the pattern with `values` in the places of `kPlaceholders`. Where there is no value, the mark that parts it
+/// from what comes before goes, too; at the beginning of a name, the marks that part it from what follows.
+std::string filled(std::string_view pattern, const std::array<std::string, kPlaceholders.size()>& values) {
+    constexpr std::string_view kMarks = ".-_";
+    std::string name;
+    while (!pattern.empty()) {
+        const auto* const found = std::ranges::find_if(
+            kPlaceholders, [&](std::string_view placeholder) { return pattern.starts_with(placeholder); });
+        if (found == kPlaceholders.end()) {
+            name += pattern.front();
+            pattern.remove_prefix(1);
+            continue;
+        }
+        pattern.remove_prefix(found->size());
+        const std::string& value = values[static_cast<std::size_t>(found - kPlaceholders.begin())];
+        name += value;
+        if (!value.empty()) continue;
+        if (name.empty() || name.back() == '/')
+            pattern.remove_prefix(std::min(pattern.find_first_not_of(kMarks), pattern.size()));
+        else if (kMarks.find(name.back()) != std::string_view::npos)
+            name.pop_back();
+    }
+    return name;
 }
 
 /// Returns `name` without folders that have no name, of placeholders without a value.
@@ -174,15 +194,17 @@ fs::path without_empty_folders(const std::string& name) {
     return kept;
 }
 
-/// Returns the path of an image below the output directory, without extension; a frame's number is "####" there. Throws
-/// UsageError if `pattern` leaves no name or leads elsewhere.
-std::string image_name(const std::string& pattern, const std::string& scene, const ScenePart& part, bool is_sequence) {
+/// Returns the path of an image below the output directory, without extension; a frame's number is "####" there. The
+/// scene's camera is `shown_camera` where `part` asks for none. Throws UsageError if `pattern` leaves no name or leads
+/// elsewhere.
+std::string image_name(const std::string& pattern, const std::string& scene, const ScenePart& part,
+                       const std::string& shown_camera, bool is_sequence) {
     if (pattern.empty()) return scene + part.variant_suffix + part.camera_suffix;
     const auto without_dot = [](const std::string& suffix) { return suffix.empty() ? suffix : suffix.substr(1); };
-    std::string name = put(pattern, "{frame}", is_sequence ? "####" : "");
-    name = put(name, "{variant}", without_dot(part.variant_suffix));
-    name = put(name, "{camera}", without_dot(part.camera_suffix));
-    const fs::path path = without_empty_folders(put(name, "{scene}", scene));
+    const std::string camera =
+        part.camera ? without_dot(part.camera_suffix) : file_part(shown_camera.empty() ? "camera" : shown_camera);
+    const fs::path path = without_empty_folders(
+        filled(pattern, {scene, without_dot(part.variant_suffix), camera, is_sequence ? "####" : ""}));
     if (path.empty())
         throw UsageError(fmt::format("--name '{}' leaves no name for an image of {}", pattern, shown(scene)));
     if (std::ranges::any_of(path, [](const fs::path& folder) { return folder == "." || folder == ".."; }))
@@ -191,9 +213,10 @@ std::string image_name(const std::string& pattern, const std::string& scene, con
     return path.string();
 }
 
-/// True if the glob matches the image's name, or its scene's, or the last part of that, or a folder above.
+/// True if the glob matches the image's name, or its scene's, or the last part of one of them, or a folder above.
 bool matches(const std::string& glob, const BatchTask& task) {
-    std::vector<std::string> names{task.id, task.scene_name, fs::path(task.scene_name).filename().string()};
+    std::vector<std::string> names{task.id, task.scene_name};
+    for (const fs::path path : {task.id, task.scene_name}) names.push_back(path.filename().string());
     for (fs::path folder = fs::path(task.scene_name).parent_path(); !folder.empty(); folder = folder.parent_path())
         names.push_back(folder.string());
     return std::ranges::any_of(names,
@@ -218,20 +241,23 @@ BatchTasks choose(std::vector<BatchTask> tasks, const BatchOptions& options) {
     const auto names_none = [&](const std::string& glob) {
         return std::ranges::none_of(tasks, [&](const BatchTask& task) { return matches(glob, task); });
     };
-    for (const std::string& glob : options.only)
-        if (names_none(glob))
-            throw UsageError(
-                fmt::format("--only '{}' matches no image; there are {} (a glob matches an image's or a "
-                            "scene's name, or a folder: '*' any text, '?' a character)",
-                            glob, some_names(tasks)));
-    for (const std::string& glob : options.exclude)
-        if (names_none(glob) && !options.quiet) log_warning("note: --exclude '{}' matches no image", shown(glob));
+    const auto require_matches = [&](const char* option, const std::vector<std::string>& globs) {
+        for (const std::string& glob : globs)
+            if (names_none(glob))
+                throw UsageError(
+                    fmt::format("{} '{}' matches no image; there are {} (a glob matches the name of an image or a "
+                                "scene, or the last part of one, or a folder: '*' any text, '?' a character)",
+                                option, glob, some_names(tasks)));
+    };
+    require_matches("--only", options.only);
+    require_matches("--exclude", options.exclude);
     BatchTasks parted;
     for (BatchTask& task : tasks) {
         const bool is_chosen = (options.only.empty() || any(options.only, task)) && !any(options.exclude, task);
         (is_chosen ? parted.chosen : parted.left_out).push_back(std::move(task));
     }
-    if (parted.chosen.empty()) throw UsageError("--only and --exclude leave no image");
+    if (parted.chosen.empty())
+        throw UsageError(options.only.empty() ? "--exclude leaves no image" : "--only and --exclude leave no image");
     return parted;
 }
 
@@ -248,6 +274,18 @@ std::vector<std::string> layers_with_files(const fs::path& scene, const Settings
     return layers_with_files(make_aov_plan(desc, ignored), each_has_file);
 } catch (const std::exception&) {
     return {};  // rendering the scene will say what is wrong
+}
+
+/// Says what to do about two images of one name.
+std::string how_to_tell_apart(const BatchOptions& options) {
+    std::vector<std::string_view> missing;
+    for (const auto& [placeholder, tells_apart] :
+         {std::pair(kPlaceholders[0], true), std::pair(kPlaceholders[1], options.all_variants),
+          std::pair(kCamera, options.all_cameras)})
+        if (tells_apart && options.name_pattern.find(placeholder) == std::string::npos) missing.push_back(placeholder);
+    if (options.name_pattern.empty() || missing.empty())
+        return "render the scenes to different directories, or give one another name";
+    return fmt::format("put {} into --name", fmt::join(missing, " and "));
 }
 
 /// Every file that the batch may write. Throws SceneError if two of them would have one name.
@@ -272,10 +310,8 @@ std::vector<fs::path> files_of(const std::vector<BatchTask>& tasks, const BatchO
         }
         for (fs::path& file : of_image) {
             if (!taken.insert(file).second)
-                throw SceneError({task.job.scene.string(), {}},
-                                 fmt::format("two files would be written to '{}'; render the scenes to different "
-                                             "directories, or give one another name",
-                                             file.string()));
+                throw SceneError({task.job.scene.string(), {}}, fmt::format("two files would be written to '{}'; {}",
+                                                                            file.string(), how_to_tell_apart(options)));
             files.push_back(std::move(file));
         }
     }
@@ -322,8 +358,7 @@ fs::path denoised_path(const fs::path& output) {
 
 void check_name_pattern(const std::string& pattern) {
     const auto fail = [&](const std::string& why) { throw UsageError(fmt::format("--name '{}': {}", pattern, why)); };
-    std::string rest = pattern;
-    for (const std::string_view placeholder : kPlaceholders) rest = replaced(rest, placeholder, "x");
+    const std::string rest = filled(pattern, {"x", "x", "x", "x"});
     if (rest.find_first_of("{}") != std::string::npos)
         fail(fmt::format("braces stand around what is put in only: {}", fmt::join(kPlaceholders, ", ")));
     const fs::path path(rest);
@@ -339,13 +374,15 @@ BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_name
     std::vector<BatchTask> all;
     for (const FoundScene& scene : find_scenes(options.roots)) {
         SceneNames names;
-        if (options.all_variants || options.all_cameras) names = find_names(scene.path);
+        const bool names_camera = options.name_pattern.find(kCamera) != std::string::npos;
+        if (options.all_variants || options.all_cameras || names_camera) names = find_names(scene.path);
         if (!options.all_variants) names.variants.clear();
         if (!options.all_cameras) names.cameras.clear();
         const bool is_sequence = frames_of(scene.path, options.overrides).has_value();
         for (const ScenePart& part : parts_of(scene.path, names)) {
             const fs::path output =
-                options.output / (image_name(options.name_pattern, scene.name, part, is_sequence) + ".exr");
+                options.output /
+                (image_name(options.name_pattern, scene.name, part, names.shown_camera, is_sequence) + ".exr");
             for (ImageJob& job : image_jobs(scene.path, output, scene.name + part.label, options.overrides)) {
                 job.variant = part.variant;
                 job.camera = part.camera;

@@ -33,6 +33,7 @@ struct BatchTasks {
 struct SceneNames {
     std::vector<std::string> variants{};
     std::vector<std::string> cameras{};
+    std::string shown_camera{};  ///< camera of the image where none is asked for; empty if there is none
 };
 /// Finds the names of the scene directory or file `scene`.
 using FindNames = std::function<SceneNames(const std::filesystem::path& scene)>;
@@ -40,10 +41,10 @@ using FindNames = std::function<SceneNames(const std::filesystem::path& scene)>;
 /// Throws UsageError that says why `pattern` cannot name images below the output directory, if it cannot.
 void check_name_pattern(const std::string& pattern);
 
-/// Collects the tasks. `find_names` is asked once for each scene if all variants or cameras are wanted. Throws
-/// UsageError if --only names nothing, if it or --exclude leave nothing, if --name leads out of the output directory,
-/// or if the log is a file that the batch writes; SceneError if two files of the images or the batch would have one
-/// name; and ReplacedInput if any of them, or the log, is an input of a scene.
+/// Collects the tasks. `find_names` is asked once for each scene if all variants or cameras are wanted, or if --name
+/// asks for cameras. Throws UsageError if --only or --exclude names nothing, if they leave nothing, if --name leads out
+/// of the output directory, or if the log is a file that the batch writes; SceneError if two files of the images or the
+/// batch would have one name; and ReplacedInput if any of them, or the log, is an input of a scene.
 [[nodiscard]] BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_names);
 
 /// Returns a note that frames which are made at once each choose an exposure of their own; empty if no frame of `tasks`

@@ -98,16 +98,24 @@ void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitC
         progress.say_error(fmt::format("error: --on-finish: the command ended with exit code {}", result.exit_code));
 }
 
-/// Leaves out all but the images that failed last time, or were not tried as others of their scene had failed.
-void keep_failed(BatchTasks& tasks, const LedgerHistory& history) {
-    std::vector<BatchTask>& chosen = tasks.chosen;
-    const auto others = std::stable_partition(chosen.begin(), chosen.end(), [&](const BatchTask& task) {
+/// Leaves out all but the images that failed last time, or were not tried as others of their scene had failed. Returns
+/// what to say if there is none.
+std::string keep_failed(BatchTasks& tasks, const LedgerHistory& history, const fs::path& output) {
+    const auto has_failed = [&](const BatchTask& task) {
         const LedgerHistory::Entry* const last = history.find(task.id);
         return last != nullptr &&
                (last->kind == LedgerEventKind::UnitFailed || last->kind == LedgerEventKind::UnitNotTried);
-    });
+    };
+    const auto failed_but_left_out = std::ranges::count_if(tasks.left_out, has_failed);
+    std::vector<BatchTask>& chosen = tasks.chosen;
+    const auto others = std::stable_partition(chosen.begin(), chosen.end(), has_failed);
     std::move(others, chosen.end(), std::back_inserter(tasks.left_out));
     chosen.erase(others, chosen.end());
+    if (!chosen.empty()) return {};
+    if (failed_but_left_out == 0) return fmt::format("--failed: no image in {} failed last time", output.string());
+    return fmt::format(
+        "--failed: no image that --only and --exclude choose failed last time; {} that they leave out did",
+        failed_but_left_out);
 }
 
 /// Opens the log, which may lie in the output directory that is still to be made.
@@ -166,9 +174,9 @@ ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live,
     LedgerHistory history(options.output / "ledger.jsonl");
     history.read_new();
     if (options.only_failed) {
-        keep_failed(tasks, history);
-        if (tasks.chosen.empty()) {
-            progress->say(fmt::format("--failed: no image in {} failed last time", options.output.string()));
+        const std::string none = keep_failed(tasks, history, options.output);
+        if (!none.empty()) {
+            progress->say(none);
             if (options.dry_run) print(options, to_json(BatchPlan()), "");
             if (!options.dry_run) print(options, to_json(report), "");
             return ExitCode::Success;
@@ -250,17 +258,17 @@ void add_image_options(CLI::App& command, BatchOptions& options) {
         ->check(CLI::IsMember({"all"}));
     command
         .add_option("--name", options.name_pattern,
-                    "Pattern of the images' names below the output directory, without .exr, of {scene}, {variant}, "
-                    "{camera} and {frame}, such as {scene}/{camera}.{frame} (default: "
-                    "{scene}.{variant}.{camera}.{frame})")
+                    "Name the images by this pattern of {scene}, {variant}, {camera} and {frame}, below the output "
+                    "directory and without .exr: '{scene}/{camera}.{frame}' (default: {scene}.{frame}; --variants and "
+                    "--cameras put .{variant} and .{camera} before the frame)")
         ->type_name("PATTERN");
     const auto add_globs = [&](const char* name, std::vector<std::string>& globs, const char* help) {
         command.add_option(name, globs, help)->allow_extra_args(false)->type_name("GLOB");
     };
     add_globs("--only", options.only,
-              "Make only images whose name, scene or folder matches this glob, such as 'shots/*' or '*.00[0-4]?'; may "
-              "be repeated");
-    add_globs("--exclude", options.exclude, "Leave out images that match this glob; may be repeated");
+              "Make only images whose name, scene or folder matches this glob, such as 'shots/*' or 'fox.00[0-4]?'; "
+              "may be repeated");
+    add_globs("--exclude", options.exclude, "Leave out images that match this glob, as with --only; may be repeated");
     command.add_flag("--failed", options.only_failed, "Make only images that failed last time");
     command
         .add_option_function<std::string>(

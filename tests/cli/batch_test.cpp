@@ -201,9 +201,9 @@ TEST_F(Batch, OptionsThatFitNoSceneAreSaidOnce) {
         more.insert(more.begin(), {"batch", (folder_ / "scenes").string(), "-o", "out"});
         return run_etendue(more, work_);
     };
-    for (const Names& wrong :
-         {Names{"--display", "none"}, Names{"--aov", "dept"}, Names{"--only", "z"}, Names{"--name", "{shot}"},
-          Names{"--order", "longest", "--no-probe"}, Names{"--log", "no/log"}}) {
+    for (const Names& wrong : {Names{"--display", "none"}, Names{"--aov", "dept"}, Names{"--only", "z"},
+                               Names{"--exclude", "z"}, Names{"--exclude", "*"}, Names{"--name", "{shot}"},
+                               Names{"--order", "longest", "--no-probe"}, Names{"--log", "no/log"}}) {
         const ProgramResult result = with_probe(wrong);
         EXPECT_EQ(result.exit_code, 2) << wrong[1] << result.err;
         EXPECT_TRUE(result.err.starts_with("error: --")) << result.err;
@@ -327,6 +327,10 @@ TEST_F(Batch, MakesWhatIsChosenAndTellsOfItWhereItIsAsked) {
     EXPECT_NE(run({"--failed", "--only", "a"}).err.find("no image in out failed last time"), std::string::npos);
     EXPECT_EQ(json::parse(run({"--failed", "--only", "a", "--json"}).out)["units"].size(), 0u);
     EXPECT_EQ(json::parse(run({"--failed", "--only", "a", "--json", "--dry-run"}).out)["units"].size(), 0u);
+    const Names named{"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--failed", "--only", "a"};
+    EXPECT_NE(
+        run(named).err.find("no image that --only and --exclude choose failed last time; 1 that they leave out did"),
+        std::string::npos);
     // What is left out stays in the report.
     EXPECT_EQ(run({"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--only", "a"}).exit_code, 0);
     json report = json::parse(read_file(work_ / "out/report.json"));
