@@ -170,6 +170,7 @@ SceneLook probe_in_child(const BatchTask& task, const BatchOptions& options) {
     const Answer answer = ask(std::move(arguments), options);
     SceneLook look = look_of(answer, answer.json);
     look.seconds = number_at<double>(answer.json, "/estimated_seconds");
+    look.start_seconds = number_at<double>(answer.json, "/start_seconds").value_or(0.0);
     look.memory_bytes = number_at<std::uint64_t>(answer.json, "/estimated_memory_bytes");
     // What is refused is refused before anything large is made.
     if (answer.has_refused) look.memory_bytes = 0;

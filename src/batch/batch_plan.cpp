@@ -137,7 +137,8 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
         if (unit.task.job.camera) unit.outline.camera = *unit.task.job.camera;
         unit.error = look.error;
         unit.memory_bytes = look.memory_bytes;
-        if (look.seconds) unit.estimated_seconds = *look.seconds * (1.0 - unit.done);
+        if (look.seconds)
+            unit.estimated_seconds = look.start_seconds + (*look.seconds - look.start_seconds) * (1.0 - unit.done);
     }
     return plan;
 }

@@ -17,7 +17,7 @@ namespace etendue {
 RenderProbe parse_probe(const std::string& text) {
     try {
         const nlohmann::json json = nlohmann::json::parse(text);
-        const double start = json.at("load_seconds").get<double>() + json.at("build_seconds").get<double>();
+        const double start = json.at("start_seconds").get<double>();
         const RenderProbe probe{.start_seconds = start,
                                 .render_seconds = json.at("estimated_seconds").get<double>() - start,
                                 .peak_memory_bytes = json.at("peak_memory_bytes").get<std::uint64_t>(),

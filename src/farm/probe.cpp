@@ -1,5 +1,6 @@
 #include "farm/probe.h"
 
+#include "core/process_time.h"
 #include "farm/farm_needs.h"
 #include "picture/aov_setup.h"
 #include "picture/integrator_choice.h"
@@ -74,11 +75,12 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
             of_sequence ? of_sequence->integrator : choose_integrator(world, settings, to_choose, threads).integrator;
     const auto integrator = create_integrator(settings);
     const PhaseTime build = build_timer.elapsed();
+    // Colours are set up and libraries loaded for each image, too: for small ones, most of the time.
+    const double start = std::max(seconds_since_process_start(), prepared.load.wall + build.wall);
     const ShortRender rendered = render_shortly(world, *integrator, options, threads);
 
     const double limit = settings.time_limit;
     const double all = rendered.seconds_per_spp * static_cast<double>(options.spp);
-    const double start = prepared.load.wall + build.wall;
     const std::uint64_t peak = peak_memory_bytes();
     const double memory = kMemorySafety * memory_of_render(peak, rendered.deep_bytes, film_size);
     const nlohmann::ordered_json json{{"scene", job.scene.string()},
@@ -90,6 +92,7 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
                                       {"threads", threads.thread_count()},
                                       {"load_seconds", prepared.load.wall},
                                       {"build_seconds", build.wall},
+                                      {"start_seconds", start},
                                       {"seconds_per_spp", rendered.seconds_per_spp},
                                       {"estimated_seconds", start + (limit > 0.0 ? std::min(all, limit) : all)},
                                       {"peak_memory_bytes", peak},
