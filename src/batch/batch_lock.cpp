@@ -190,6 +190,17 @@ LockAttempt BatchLocks::take(const std::string& image) const {
             .holder = std::move(self)};
 }
 
+std::optional<ProcessOwner> BatchLocks::find_holder(const std::string& image) const {
+    const fs::path file = file_of(image);
+    const std::optional<ProcessOwner> owner = read_owner(file);
+    if (!owner) return std::nullopt;
+    std::error_code error;
+    const auto age = fs::file_time_type::clock::now() - fs::last_write_time(file, error);
+    const Liveness known = liveness(*owner);
+    const bool is_held = known == Liveness::Unknown ? !error && age <= times_.dead_after : known == Liveness::Alive;
+    return is_held ? owner : std::nullopt;
+}
+
 void BatchLocks::tidy() const {
     const Mutex mutex(directory_);
     const fs::path locks = directory_ / "locks";

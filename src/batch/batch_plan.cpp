@@ -1,5 +1,6 @@
 #include "batch/batch_plan.h"
 
+#include "batch/batch_lock.h"
 #include "loader/loader.h"
 #include "session/checkpoint_files.h"
 #include "session/interrupt.h"
@@ -121,6 +122,7 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
     BatchPlan plan;
     plan.reserve(tasks.size());
     const std::size_t count = tasks.size();
+    const BatchLocks locks(options.output);
     std::optional<ImageJob> looked_at;
     SceneLook look;
     for (BatchTask& task : tasks) {
@@ -129,6 +131,10 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
         PlannedUnit& unit = plan.emplace_back(PlannedUnit{.task = std::move(task)});
         examine(unit, options, options.force, history);
         if (!unit.is_stale()) continue;
+        if (const auto holder = options.dry_run ? locks.find_holder(unit.task.id) : std::nullopt) {
+            unit.is_elsewhere = true;
+            unit.reason = "running elsewhere: " + holder->str();
+        }
         if (!looked_at || !are_alike(*looked_at, unit.task.job)) {
             looked_at = unit.task.job;
             look = look_at(unit.task, options);

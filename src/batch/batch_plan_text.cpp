@@ -58,6 +58,7 @@ PlanRow row_of(const PlannedUnit& unit) {
     const auto known = [](bool is_known, std::string text) { return is_known ? std::move(text) : std::string("-"); };
     return {shown_text(unit.task.job.name),
             !unit.is_stale()      ? "up to date"
+            : unit.is_elsewhere   ? "wait"
             : !unit.error.empty() ? "will fail"
                                   : "render",
             unit.is_stale() ? shown_text(unit.reason) : "-",
@@ -122,6 +123,7 @@ std::string to_json(const BatchPlan& plan) {
                          {"camera", text_or_null(unit.outline.camera)},
                          {"image", job.output.string()},
                          {"stale", unit.is_stale()},
+                         {"running_elsewhere", unit.is_elsewhere},
                          {"reason", text_or_null(unit.reason)},
                          {"error", text_or_null(unit.error)},
                          {"width", number_or_null(unit.outline.width)},

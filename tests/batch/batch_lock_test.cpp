@@ -63,6 +63,19 @@ TEST_F(BatchLockTest, IsHeldUntilTheEndOfItsLife) {
     EXPECT_TRUE(locks_.take("a/box").lock);
 }
 
+TEST_F(BatchLockTest, TellsItsHolderToWhoOnlyLooks) {
+    EXPECT_FALSE(locks_.find_holder("box"));
+    EXPECT_TRUE(list(folder_.path()).empty()) << "looking leaves no trace";
+    let_somebody_die("box");
+    EXPECT_FALSE(locks_.find_holder("box"));
+    move_elsewhere(10);
+    EXPECT_TRUE(locks_.find_holder("box"));
+    move_elsewhere(1000);
+    EXPECT_FALSE(locks_.find_holder("box"));
+    const LockAttempt held = locks_.take("box");
+    EXPECT_EQ(locks_.find_holder("box"), this_process());
+}
+
 TEST_F(BatchLockTest, LeavesNothingBehind) {
     { const LockAttempt got = locks_.take("box"); }
     locks_.tidy();

@@ -459,6 +459,8 @@ TEST_F(Batch, WaitsForWhatAnotherMakesAndThenEverythingIsThere) {
     add_slow_scene("slow", 2.0);
     const auto first = start();
     (void)child_of(*first);
+    const ProgramResult dry = run({"--dry-run"});
+    EXPECT_NE(dry.out.find("running elsewhere: "), std::string::npos) << dry.out;
     const ProgramResult second = run();
     EXPECT_EQ(second.exit_code, 0) << second.err;
     EXPECT_TRUE(fs::exists(work_ / "out/slow.json"));
