@@ -55,6 +55,7 @@ std::string to_line(const LedgerEvent& event) {
     add("units", event.units.value_or(0), event.units.has_value());
     if (event.kind == LedgerEventKind::BatchFinished) {
         json["rendered"] = event.rendered;
+        json["interrupted"] = event.interrupted;
         json["failed"] = event.failed;
         json["not_tried"] = event.not_tried;
     }

@@ -39,6 +39,7 @@ struct LedgerEvent {
     bool again = false;                  ///< whether this process tries again at once
     std::optional<std::size_t> units{};  ///< units of a batch
     std::size_t rendered = 0;            ///< units that a batch had rendered when it ended
+    std::size_t interrupted = 0;         ///< units that the user had interrupted
     std::size_t failed = 0;              ///< units that had failed when it ended
     std::size_t not_tried = 0;           ///< units that were not tried, since their scene is invalid
 };

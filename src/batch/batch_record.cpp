@@ -28,6 +28,14 @@ std::optional<double> expected_seconds(const PlannedUnit& planned) {
     return planned.error.empty() ? planned.estimated_seconds : 0.0;
 }
 
+/// Returns the time that table and page show, and how much of it is older than this attempt; the attempt's own time if
+/// the image does not tell.
+std::string time_in_words(const BatchUnit& unit, double attempt_seconds) {
+    std::string text = format_duration(unit.seconds ? unit.seconds->total() : attempt_seconds);
+    if (unit.seconds_before > 0.0) text += fmt::format(", {} of it before", format_duration(unit.seconds_before));
+    return text;
+}
+
 }  // namespace
 
 BatchRecord::BatchRecord(const BatchOptions& options, BatchProgress& progress, BatchWatcher* watcher)
@@ -80,6 +88,7 @@ void BatchRecord::end_batch(bool is_interrupted) {
                    .seconds = seconds_since(start_),
                    .units = planned_,
                    .rendered = totals(report_).rendered,
+                   .interrupted = totals(report_).interrupted,
                    .failed = failed_,
                    .not_tried = not_tried_});
     end_report(is_interrupted);
@@ -153,7 +162,7 @@ void BatchRecord::end(std::size_t index, const PlannedUnit& planned, const Attem
         case AttemptEnd::Done:
             unit.outcome = UnitOutcome::Rendered;
             read_statistics(statistics, unit);
-            progress_.say(fmt::format("{}: rendered in {}", numbered(unit.name), format_duration(seconds)));
+            progress_.say(fmt::format("{}: rendered in {}", numbered(unit.name), time_in_words(unit, seconds)));
             return;
         case AttemptEnd::Interrupted:
             unit.outcome = UnitOutcome::Interrupted;

@@ -20,6 +20,8 @@ void read_statistics(const std::filesystem::path& file, BatchUnit& unit) {
                                number_at<double>(json, "/seconds/build/wall").value_or(0.0),
                                number_at<double>(json, "/seconds/render/wall").value_or(0.0),
                                number_at<double>(json, "/seconds/write/wall").value_or(0.0)};
+    unit.seconds_before = number_at<double>(json, "/before/seconds").value_or(0.0);
+    unit.rays_before = number_at<std::uint64_t>(json, "/before/rays").value_or(0);
     unit.rays = number_at<std::uint64_t>(json, "/rays/total");
     unit.rays_per_second = number_at<double>(json, "/rays_per_second");
     unit.peak_memory_bytes = number_at<std::uint64_t>(json, "/peak_memory_bytes");

@@ -23,7 +23,7 @@ std::string to_table(const BatchReport& report, const std::string& output) {
         if (has_numbers)
             text +=
                 fmt::format("{:>11}  {:>6}  {:>9}  {:>8.1f}  ", fmt::format("{}x{}", unit.width, unit.height), unit.spp,
-                            format_duration(unit.seconds->render), unit.rays_per_second.value_or(0.0) * 1e-6);
+                            format_duration(unit.seconds->total()), unit.rays_per_second.value_or(0.0) * 1e-6);
         else
             text += fmt::format("{:>11}  {:>6}  {:>9}  {:>8}  ", "-", "-", "-", "-");
         // A message of several lines would break the table; its first line is enough here, all were logged.

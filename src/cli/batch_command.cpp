@@ -91,7 +91,8 @@ void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitC
         {"env", "ETENDUE_OUTPUT=" + report.output_directory,
          fmt::format("ETENDUE_EXIT_CODE={}", static_cast<int>(code)), fmt::format("ETENDUE_RENDERED={}", sum.rendered),
          fmt::format("ETENDUE_UP_TO_DATE={}", sum.up_to_date), fmt::format("ETENDUE_FAILED={}", sum.failed),
-         fmt::format("ETENDUE_NOT_STARTED={}", sum.not_started), "sh", "-c", options.on_finish});
+         fmt::format("ETENDUE_INTERRUPTED={}", sum.interrupted), fmt::format("ETENDUE_NOT_STARTED={}", sum.not_started),
+         "sh", "-c", options.on_finish});
     for (const std::string& text : {result.out, result.err})
         if (!text.empty()) progress.say("--on-finish: " + text.substr(0, text.find_last_not_of('\n') + 1));
     if (result.exit_code != 0)
@@ -349,9 +350,9 @@ void add_message_options(CLI::App& command, BatchOptions& options) {
         ->type_name("FILE");
     command
         .add_option("--on-finish", options.on_finish,
-                    "Command for sh -c at the end of the batch; $ETENDUE_OUTPUT, $ETENDUE_EXIT_CODE, "
-                    "$ETENDUE_RENDERED, $ETENDUE_UP_TO_DATE, $ETENDUE_FAILED and $ETENDUE_NOT_STARTED tell it what "
-                    "came of that")
+                    "Run this shell command at the end of the batch, with $ETENDUE_OUTPUT, $ETENDUE_EXIT_CODE and "
+                    "the numbers of images $ETENDUE_RENDERED, $ETENDUE_UP_TO_DATE, $ETENDUE_FAILED, "
+                    "$ETENDUE_INTERRUPTED and $ETENDUE_NOT_STARTED")
         ->type_name("COMMAND");
     command.add_flag("--quiet", options.quiet, "No progress, notes, warnings or summary; errors only");
     command.add_flag("--json", options.json, "Print the report, or with --dry-run the plan, as JSON on stdout");

@@ -95,6 +95,7 @@ std::string to_json(const RenderStatistics& s) {
                        {"build", to_object(s.build)},
                        {"render", to_object(s.render)},
                        {"write", to_object(s.write)}};
+    json["before"] = {{"seconds", s.seconds_before}, {"rays", s.rays_before}};
     json["peak_memory_bytes"] = s.peak_memory_bytes;
     json["bvh_bytes"] = s.bvh_bytes;
     json["bvh_build_seconds"] = s.bvh_build_seconds;

@@ -100,6 +100,9 @@ struct RenderStatistics {
     PhaseTime render;
     PhaseTime write;  ///< the images; this file is written after them
 
+    double seconds_before = 0.0;    ///< seconds on the clock that `render` had when this process went on with it
+    std::uint64_t rays_before = 0;  ///< rays that had been traced then
+
     std::uint64_t peak_memory_bytes = 0;  ///< largest memory of the process, bytes
     std::uint64_t bvh_bytes = 0;
     double bvh_build_seconds = 0.0;

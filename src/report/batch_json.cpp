@@ -67,6 +67,7 @@ Json batch_object(const BatchUnit& unit) {
             {"integrator", known(unit.integrator)},
             {"halt_reason", known(unit.halt_reason)},
             {"seconds", unit.seconds ? batch_object(*unit.seconds) : Json()},
+            {"seconds_before", unit.seconds_before},
             {"estimated_seconds", known(unit.estimated_seconds)},
             {"rays", known(unit.rays)},
             {"rays_per_second", known(unit.rays_per_second)},

@@ -37,11 +37,11 @@ BatchTotals totals(const BatchReport& report) {
         ++count_of(sum, unit.outcome);
         sum.peak_memory_bytes = std::max(sum.peak_memory_bytes, unit.peak_memory_bytes.value_or(0));
         if (unit.outcome != UnitOutcome::Rendered && unit.outcome != UnitOutcome::Interrupted) continue;
-        sum.rays += unit.rays.value_or(0);
+        sum.rays += unit.rays.value_or(0) - std::min(unit.rays_before, unit.rays.value_or(0));
         if (!unit.seconds) continue;
         sum.seconds.load += unit.seconds->load;
         sum.seconds.build += unit.seconds->build;
-        sum.seconds.render += unit.seconds->render;
+        sum.seconds.render += std::max(0.0, unit.seconds->render - unit.seconds_before);
         sum.seconds.write += unit.seconds->write;
     }
     return sum;

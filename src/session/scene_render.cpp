@@ -91,6 +91,10 @@ class SceneRender {
         if (kept && !request_.quiet)
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
+        if (kept) {
+            description_.statistics.seconds_before = kept->state.wall_seconds;
+            description_.statistics.rays_before = kept->state.counters.rays.total();
+        }
         std::optional<IntegratorChoice> chosen;
         if (!to_choose_.empty()) chosen = choice_from_elsewhere(kept);
         const World world = compile();

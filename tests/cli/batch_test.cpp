@@ -296,6 +296,8 @@ TEST_F(Batch, GoesOnFromTheSumsOfAFinishedImage) {
     EXPECT_FALSE(fs::exists(work_ / "out/a.sums"));
     const json statistics = json::parse(read_file(work_ / "out/a.json"));
     EXPECT_EQ(statistics["spp"]["done"], 8);
+    EXPECT_GT(statistics["before"]["rays"], 0);
+    EXPECT_LT(statistics["before"]["rays"], statistics["rays"]["total"]);
     const ProgramResult anew =
         run_etendue({"render", scene, "--float", "--spp", "8", "-o", "anew.exr", "--quiet"}, work_);
     EXPECT_EQ(anew.exit_code, 0) << anew.err;
@@ -604,7 +606,8 @@ TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
     write_file(folder_ / "scenes/a/render.json", settings);
     for (const auto& [signal, code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}, std::pair{SIGHUP, 143}}) {
         fs::remove_all(work_ / "out");
-        const auto batch = start({"--threads", "1", "--checkpoint-every", "0.001"});
+        const auto batch = start({"--threads", "1", "--checkpoint-every", "0.001", "--on-finish",
+                                  "echo $ETENDUE_INTERRUPTED $ETENDUE_NOT_STARTED > finished"});
         // A signal that comes before there are samples leaves nothing to go on with.
         ASSERT_TRUE(wait_until([&] { return fs::exists(work_ / "out/a.checkpoint"); }));
         batch->send(signal);
@@ -614,11 +617,16 @@ TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
         EXPECT_EQ(count("unit started").size(), 1u) << "nothing else is begun";
         EXPECT_FALSE(fs::exists(work_ / "out/.etendue"));
         EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["interrupted"], true);
+        EXPECT_EQ(events("batch finished").front()["interrupted"], 1);
+        EXPECT_EQ(read_file(work_ / "finished"), "1 1\n");
     }
     EXPECT_TRUE(fs::exists(work_ / "out/a.checkpoint"));
     const ProgramResult next = run();
     EXPECT_EQ(next.exit_code, 0) << next.err;
     EXPECT_NE(next.err.find("goes on from a checkpoint"), std::string::npos) << next.err;
+    const json report = json::parse(read_file(work_ / "out/report.json"));
+    EXPECT_GT(report["units"][0]["seconds_before"], 0.0);
+    EXPECT_LT(report["totals"]["rays"], report["units"][0]["rays"].get<int>() + report["units"][1]["rays"].get<int>());
     expect_tidy();
     const std::string image = read_file(work_ / "out/a.png");
     EXPECT_EQ(run({"--force", "--quiet"}).exit_code, 0);

@@ -39,6 +39,8 @@ RenderStatistics make_statistics() {
     s.build = {1.0, 1.5};
     s.render = {2.0, 3.75};
     s.write = {0.125, 0.0625};
+    s.seconds_before = 0.75;
+    s.rays_before = 150;
     s.peak_memory_bytes = 5'000'000'000;
     s.bvh_bytes = 1234;
     s.bvh_build_seconds = 0.5;
@@ -101,6 +103,7 @@ TEST(StatisticsJson, HasEveryField) {
                  "light_to_camera": 0, "lamp_in_view": 0, "lamp_image": 0, "total": 400}, "rays_per_second": 200.0,
         "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},
                     "render": {"wall": 2.0, "cpu": 3.75}, "write": {"wall": 0.125, "cpu": 0.0625}},
+        "before": {"seconds": 0.75, "rays": 150},
         "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "bvh_build_seconds": 0.5,
         "bvh_triangles_per_second": 72.0, "triangles": 36, "instances": 1, "lights": 2,
         "textures": {"count": 4, "held": "cached", "bytes": 5678, "cache_budget_bytes": 9000, "failed_lookups": 6},

@@ -62,6 +62,16 @@ TEST(BatchTotals, CountOutcomesAndSumUpWhatThisBatchRendered) {
     EXPECT_EQ(sum.peak_memory_bytes, 8192u);
 }
 
+TEST(BatchTotals, LeaveOutWhatWasRenderedBefore) {
+    BatchReport report = small_report();
+    report.units[0].seconds_before = 20.0;
+    report.units[0].rays_before = 60;
+    report.units[1].seconds_before = 31.0;
+    const BatchTotals sum = totals(report);
+    EXPECT_EQ(sum.seconds.render, 10.0) << "and never less than nothing";
+    EXPECT_EQ(sum.rays, 140u);
+}
+
 TEST(BatchTotals, EveryOutcomeHasItsCount) {
     BatchReport report;
     for (const UnitOutcome outcome :
