@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <sstream>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace etendue {
 
@@ -34,6 +37,13 @@ OptionHelp::Value value_of(const CLI::Option& option, const std::vector<std::str
     return is_number ? OptionHelp::Value::Number : OptionHelp::Value::Text;
 }
 
+/// Returns the names of the options: "--denoise, --jobs".
+std::string names_of(const std::set<CLI::Option*>& options) {
+    std::set<std::string> names;
+    for (const CLI::Option* option : options) names.insert(option->get_name());
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 OptionHelp describe_option(const CLI::Option& option) {
     OptionHelp help;
     if (option.get_positional()) help.names.push_back(option.get_name(true));
@@ -45,7 +55,8 @@ OptionHelp describe_option(const CLI::Option& option) {
     help.description = option.get_description();
     // CLI11 names a type before its range or its words, and the default behind them.
     for (const auto& [from, to] :
-         {std::pair("INT:INT in", "INT in"), std::pair("FLOAT:FLOAT in", "FLOAT in"), std::pair("TEXT:{", "{"),
+         {std::pair("INT:INT in", "INT in"), std::pair("UINT:INT in", "INT in"), std::pair("UINT:UINT in", "INT in"),
+          std::pair("FLOAT:FLOAT in", "FLOAT in"), std::pair("FLOAT:POSITIVE", "FLOAT > 0"), std::pair("TEXT:{", "{"),
           std::pair("TEXT:FILE", "FILE"), std::pair("TEXT:DIR", "DIR")})
         if (help.terms.starts_with(from)) help.terms.replace(0, std::string_view(from).size(), to);
     if (const std::string value = option.get_default_str(); !value.empty()) {
@@ -55,6 +66,13 @@ OptionHelp describe_option(const CLI::Option& option) {
                 help.terms.erase(at, shown.size());
         help.description += fmt::format(" (default: {})", value);
     }
+    // CLI11 names other options behind the type, where nobody looks for a sentence.
+    for (const auto& [heading, options, words] : {std::tuple("Needs:", option.get_needs(), "needs"),
+                                                  std::tuple("Excludes:", option.get_excludes(), "not with")})
+        if (!options.empty()) {
+            help.terms = CLI::detail::trim_copy(help.terms.substr(0, help.terms.find(heading)));
+            help.description += fmt::format(" ({} {})", words, names_of(options));
+        }
     help.choices = choices_of(option.get_type_name());
     help.value = value_of(option, help.choices);
     return help;

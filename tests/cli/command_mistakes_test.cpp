@@ -129,6 +129,10 @@ TEST_F(CommandMistakes, HelpIsInGroupsAndFits) {
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), kWidth) << line;
     EXPECT_NE(help.find("--retries INT in [0 - 1000]\n"), std::string::npos) << help;
     EXPECT_NE(help.find("(default: 1)"), std::string::npos);
+    EXPECT_NE(help.find("Leave the ground of the studio out (not with --ground)\n"), std::string::npos) << help;
+    EXPECT_NE(help.find("--jobs-memory SIZE      "), std::string::npos) << "what it needs stands in its sentence";
+    EXPECT_NE(run({"diff", "--help"}).out.find("--map-max FLOAT > 0"), std::string::npos);
+    EXPECT_NE(run({"profile", "--help"}).out.find("--growth INT in [100 - 10000000]\n"), std::string::npos);
 }
 
 }  // namespace
