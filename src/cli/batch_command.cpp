@@ -301,28 +301,32 @@ void add_work_options(CLI::App& command, BatchOptions& options) {
     command.add_flag("--dry-run", options.dry_run,
                      "Print what would be rendered, why, for how long, and what would fail; write nothing");
     command.add_flag("--no-probe", options.no_probe,
-                     "No estimate of time and memory, which takes a second for each scene that is stale");
+                     "Estimate neither time nor memory, which saves a second for each scene to render");
 }
 
 /// Adds what says how the render of an image goes on after a failure, and where it ends.
 void add_attempt_options(CLI::App& command, BatchOptions& options) {
-    command.add_option("--retries", options.retries, "Attempts after one that crashed or could not read or write")
+    command
+        .add_option("--retries", options.retries,
+                    "Try an image again this many times if its render crashes or cannot read or write a file")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     command
-        .add_option("--checkpoint-every", options.checkpoint_minutes,
-                    "Minutes between checkpoints, from which interrupted images go on; 0: none but when interrupted")
+        .add_option(
+            "--checkpoint-every", options.checkpoint_minutes,
+            "Minutes between checkpoints, from which interrupted images go on; 0 writes one only when interrupted")
         ->check(real_range(0.0, 1e6))
         ->capture_default_str();
     command
         .add_option("--stall-minutes", options.stall_minutes,
-                    "Minutes without any progress after which the render of an image counts as crashed; 0: never")
+                    "Count the render of an image as crashed after this many minutes without progress; 0: never")
         ->check(real_range(0.0, 1e6))
         ->capture_default_str();
-    auto* in_process = command
-                           .add_flag("--in-process", options.in_process,
-                                     "Render in this process instead of one for each image: a crash ends all")
-                           ->excludes(command.get_option("--jobs"));
+    auto* in_process =
+        command
+            .add_flag("--in-process", options.in_process,
+                      "Render all images in this process instead of one each: a crash ends the whole batch")
+            ->excludes(command.get_option("--jobs"));
     command
         .add_option_function<std::string>(
             "--max-memory",
@@ -337,8 +341,9 @@ void add_attempt_options(CLI::App& command, BatchOptions& options) {
     command
         .add_flag_callback(
             "--keep-sums", [&options] { options.keep_sums_after = 0.0; },
-            "Keep the sums of every finished image, NAME.sums, from which more samples go on (default: of renders that "
-            "take more than a minute)")
+            "Keep the sums of every finished image in NAME.sums, so that more samples can be added (default: of "
+            "renders "
+            "over a minute)")
         ->excludes(command.add_flag_callback(
             "--no-keep-sums", [&options] { options.keep_sums_after.reset(); }, "Keep no sums of finished images"));
 }
@@ -346,7 +351,7 @@ void add_attempt_options(CLI::App& command, BatchOptions& options) {
 void add_message_options(CLI::App& command, BatchOptions& options) {
     command
         .add_option("--log", options.log,
-                    "File to which every line of progress, notes and errors is appended, with its time")
+                    "Append every line of progress, every note and every error to this file, with its time")
         ->type_name("FILE");
     command
         .add_option("--on-finish", options.on_finish,

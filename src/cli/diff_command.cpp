@@ -245,8 +245,8 @@ void add_diff_options(CLI::App& command, DiffArguments& arguments) {
         .add_option_function<std::string>(
             "--crop",
             [&arguments](const std::string& text) { arguments.options.region = parse_pixel_window("--crop", text); },
-            "Measure only the pixels from x0, y0 to before x1, y1 of the full image, with y down from the top left "
-            "corner")
+            "Measure only the pixels from x0, y0 up to but not including x1, y1 of the full image, y downwards from "
+            "the top left corner")
         ->type_name("x0,y0,x1,y1");
     add_old_name(command, "--region", "--crop");
     command

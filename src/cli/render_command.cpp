@@ -290,9 +290,10 @@ void add_render_command(CLI::App& app, Action& action) {
     add_settings_options(*command, arguments->job.overrides);
     add_png_option(*command, arguments->job.overrides);
     command
-        ->add_option("--first-frame", arguments->first_frame,
-                     "Number of the first frame of the sequence, of which --frames are a part: 'auto' chooses the "
-                     "integrator there (default: the first of --frames)")
+        ->add_option(
+            "--first-frame", arguments->first_frame,
+            "If --frames is only part of a sequence: the sequence's first frame. 'auto' chooses the integrator "
+            "at that frame (default: the first of --frames)")
         ->check(CLI::Range(-999999, 999999));
     add_threads_option(*command, arguments->threads);
     add_continuation_options(*command, arguments);

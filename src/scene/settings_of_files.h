@@ -45,8 +45,8 @@ inline constexpr std::array kLayerSettings{
             .option = "--aov-layout",
             .type = kChoiceOf<kAovLayoutNames>,
             .decides = Decides::Display,
-            .help = "Layers as channels of the image (`layers`), as parts of its file (`parts`) or in files of their "
-                    "own (`files`)",
+            .help = "Where layers go. `layers`: into channels of the image. `parts`: into parts of its file. `files`: "
+                    "into files of their own",
             .page = "aovs.md",
             .place = named_at<kAovLayoutNames>([](auto& s) -> auto& { return s.aov_layout; })},
     Setting{.pointer = "/mist/start",
@@ -60,7 +60,7 @@ inline constexpr std::array kLayerSettings{
             .type = RealNumber{{.min = 0.0, .open_min = true}, true},
             .decides = Decides::Sums,
             .unit = "metres",
-            .help = "Distance from there to where all is mist",
+            .help = "Distance from that start to where all is mist",
             .page = "aovs.md",
             .place = at([](auto& s) -> auto& { return s.mist.depth; })},
     Setting{.pointer = "/mist/falloff",
@@ -127,7 +127,7 @@ inline constexpr std::array kColourSettings{
             .option = "--aces-container",
             .type = YesNo{},
             .decides = Decides::Display,
-            .help = "Write the EXR as SMPTE ST 2065-4 asks: in ACES2065-1, 16-bit floats, not compressed",
+            .help = "Write the EXR as SMPTE ST 2065-4 asks: ACES2065-1, 16-bit floats, uncompressed",
             .page = "colour.md#aces-containers-smpte-st-2065-4",
             .place = at([](auto& s) -> auto& { return s.color.aces_container; })},
 };
@@ -138,7 +138,7 @@ inline constexpr std::array kMetadataSettings{
             .type = Name{},
             .decides = Decides::Display,
             .default_text = "none",
-            .help = "Whose image it is, as the EXR tells it (`owner`)",
+            .help = "Owner of the image, which the EXR tells (`owner`)",
             .page = "colour.md#what-an-exr-says-about-itself",
             .place = at([](auto& s) -> auto& { return s.metadata.owner; })},
     Setting{.pointer = "/metadata/comments",
@@ -146,7 +146,7 @@ inline constexpr std::array kMetadataSettings{
             .type = Name{},
             .decides = Decides::Display,
             .default_text = "none",
-            .help = "Any text that the EXR is to tell (`comments`)",
+            .help = "Any text for the EXR to tell (`comments`)",
             .page = "colour.md#what-an-exr-says-about-itself",
             .place = at([](auto& s) -> auto& { return s.metadata.comments; })},
 };

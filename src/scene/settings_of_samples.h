@@ -38,7 +38,7 @@ inline constexpr std::array kSampleSettings{
             .option = "--sampler",
             .type = kChoiceOf<kSamplerNames>,
             .decides = Decides::Samples,
-            .help = "Sample sequence: `sobol`, Owen-scrambled and padded, or `random`, independent numbers",
+            .help = "Sequence of the samples. `sobol`: Owen-scrambled and padded. `random`: independent numbers",
             .place = named_at<kSamplerNames>([](auto& s) -> auto& { return s.sampler; })},
     Setting{.pointer = "/time",
             .option = "--time",
@@ -62,24 +62,24 @@ inline constexpr std::array kSampleSettings{
             .type = RealNumber{kNotNegative, true},
             .decides = Decides::Samples,
             .unit = "units of the image",
-            .help = "Limit the largest component of each contribution of indirect light to this: fewer fireflies, and "
-                    "light is missing; 0 for no limit",
+            .help = "Limit the largest component of each contribution of indirect light to this. Fireflies get fewer, "
+                    "but light is missing. 0 for no limit",
             .page = "fireflies.md",
             .place = at([](auto& s) -> auto& { return s.clamp_indirect; })},
     Setting{.pointer = "/robust",
             .option = "--robust",
             .type = Form{kRobustForm, "^(mean|mon:([3579]|[12][13579]|31))$", parses<parse_robust>},
             .decides = Decides::Sums,
-            .help = "`mean`, or `mon:N`, N odd and from 3 to 31: each pixel is the median of the means of N parts of "
-                    "its samples, which a few fireflies do not move; too dark with few samples, right with many",
+            .help = "`mon:N` splits the samples of a pixel into N groups and takes the median of their means. That "
+                    "removes fireflies; with few samples the image is too dark",
             .page = "fireflies.md",
             .place = parsed_at<parse_robust, robust_text>([](auto& s) -> auto& { return s.robust_buckets; })},
     Setting{.pointer = "/brightest",
             .option = "--brightest",
             .type = WholeNumber{0, kMostBrightest},
             .decides = Decides::Report,
-            .help = "List this many of the brightest contributions with their paths in NAME.json, and on stderr if the "
-                    "option is given",
+            .help = "List this many of the brightest contributions, with their paths, in NAME.json. If the option is "
+                    "given, also on stderr",
             .page = "fireflies.md",
             .place = at([](auto& s) -> auto& { return s.brightest; })},
     Setting{.pointer = "/adaptive",
@@ -95,7 +95,7 @@ inline constexpr std::array kSampleSettings{
             .type = WholeNumber{1, kMostSpp},
             .decides = Decides::End,
             .needs = "/error",
-            .help = "Samples that every pixel gets before an adaptive render leaves any out",
+            .help = "Samples that every pixel gets before an adaptive render skips any pixel",
             .page = "adaptive.md",
             .place = at([](auto& s) -> auto& { return s.min_spp; })},
 };

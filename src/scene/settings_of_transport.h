@@ -47,7 +47,7 @@ inline constexpr std::array kTransportSettings{
             .type = WholeNumber{1, kMostInt},
             .decides = Decides::Samples,
             .unit = "edges",
-            .help = "Shortest paths that are kept",
+            .help = "Leave out paths that are shorter than this",
             .place = at([](auto& s) -> auto& { return s.integrator.lengths.min_depth; })},
     Setting{.pointer = "/integrator/roulette_depth",
             .option = "--roulette-depth",
@@ -62,8 +62,8 @@ inline constexpr std::array kTransportSettings{
             .option = "--light-samples",
             .type = WholeNumber{1, kMostLightSamples},
             .decides = Decides::Samples,
-            .help = "How many lights `path` and `direct` sample at what the eye sees directly, in mirrors or through "
-                    "smooth glass; more take longer and reduce the noise of soft shadows and many lights",
+            .help = "How many lights `path` and `direct` sample at what the camera sees directly, in mirrors or "
+                    "through smooth glass. More reduce the noise of soft shadows and many lights, and take longer",
             .page = "integrators.md#which-light-is-sampled",
             .place = at([](auto& s) -> auto& { return s.integrator.light_samples; })},
     Setting{.pointer = "/integrator/heuristic",
@@ -77,49 +77,44 @@ inline constexpr std::array kTransportSettings{
             .type = Form{kStrategyForm, "^([0-9]+,[0-9]+|merging)$", parses<parse_strategy>},
             .decides = Decides::Samples,
             .default_text = "all",
-            .help =
-                "Show only paths with S vertices from the light and T from the eye, both ends counted, or those that "
-                "`vcm` merges",
+            .help = "Show only the paths of one strategy: S vertices from the light and T from the camera, both ends "
+                    "counted. `merging` shows what `vcm` merges",
             .page = "integrators.md#one-strategy-at-a-time",
             .place = parsed_at<parse_strategy, strategy_value>([](auto& s) -> auto& { return s.integrator.strategy; })},
     Setting{.pointer = "/integrator/weighted",
-            .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},
+            .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy found them"},
             .decides = Decides::Samples,
-            .help =
-                "Whether the paths of the strategy are weighted; if not, they show as if no other strategy made them, "
-                "and merges as photon mapping makes them",
+            .help = "Whether the paths of the strategy are weighted. If not, they show as if no other strategy found "
+                    "them, and merges as in photon mapping",
             .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
-    Setting{
-        .pointer = "/integrator/connections",
-        .option = "--bdpt-connections",
-        .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
-        .decides = Decides::Samples,
-        .help =
-            "How `bdpt` and `vcm` connect an eye vertex: to all light vertices of its own sample (`pairwise`), or N "
-            "drawn from those of many samples (`cache:N`)",
-        .page = "integrators.md#connections-to-a-cache",
-        .place = parsed_at<parse_connections, connections_text>(
-            [](auto& s) -> auto& { return s.integrator.cached_connections; })},
+    Setting{.pointer = "/integrator/connections",
+            .option = "--bdpt-connections",
+            .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
+            .decides = Decides::Samples,
+            .help = "Which light vertices an eye vertex connects to. `pairwise`: all of its own sample. `cache:N`: N "
+                    "random ones from many samples",
+            .page = "integrators.md#connections-to-a-cache",
+            .place = parsed_at<parse_connections, connections_text>(
+                [](auto& s) -> auto& { return s.integrator.cached_connections; })},
     Setting{.pointer = "/integrator/lamp_images",
             .type = YesNo{"--no-lamp-images", "Leave images of small lamps in mirrors and glass to chance"},
             .decides = Decides::Samples,
             .help = "Whether images of small lamps in mirrors and smooth glass get samples of their own",
             .page = "integrators.md#images-of-lamps",
             .place = at([](auto& s) -> auto& { return s.integrator.lamp_images; })},
-    Setting{.pointer = "/integrator/aimed_emission",
-            .type = YesNo{"--no-aimed-emission", "Let lights send all paths where they shine"},
-            .decides = Decides::Samples,
-            .help = "Whether lights send a share of the paths of `light`, `bdpt` and `vcm` towards mirrors and smooth "
-                    "glass",
-            .page = "integrators.md#aimed-emission",
-            .place = at([](auto& s) -> auto& { return s.integrator.aimed_emission; })},
+    Setting{
+        .pointer = "/integrator/aimed_emission",
+        .type = YesNo{"--no-aimed-emission", "Aim no light paths at mirrors and smooth glass"},
+        .decides = Decides::Samples,
+        .help = "Whether lights aim a share of their paths at mirrors and smooth glass, in `light`, `bdpt` and `vcm`",
+        .page = "integrators.md#aimed-emission",
+        .place = at([](auto& s) -> auto& { return s.integrator.aimed_emission; })},
     Setting{.pointer = "/integrator/merge",
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,
             .decides = Decides::Samples,
-            .help =
-                "Where `vcm` merges: at surfaces seen in a mirror or through smooth glass, for light that has passed "
-                "one, too (`sds`); at `all` vertices; or nowhere (`none`), which is `bdpt`",
+            .help = "Where `vcm` merges. `sds`: where both the camera and the light come by a mirror or smooth glass. "
+                    "`all`: at every vertex. `none`: nowhere, as `bdpt`",
             .page = "integrators.md#vcm",
             .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merging.at; })},
     Setting{.pointer = "/integrator/merge_radius",
@@ -127,18 +122,16 @@ inline constexpr std::array kTransportSettings{
             .type = RealNumber{{.min = 0.01, .max = 100.0}},
             .decides = Decides::Samples,
             .unit = "pixels",
-            .help = "How far `vcm` merges in the first sample of a pixel; later samples merge less far",
+            .help = "Radius within which `vcm` merges in the first sample of a pixel. It is smaller in later samples",
             .page = "integrators.md#vcm",
             .place = at([](auto& s) -> auto& { return s.integrator.merging.radius; })},
-    Setting{
-        .pointer = "/integrator/merge_alpha",
-        .type = RealNumber{{.min = 0.1, .max = 1.0}},
-        .decides = Decides::Samples,
-        .help =
-            "How slowly the radius of `vcm` shrinks: with the power (merge_alpha - 1) / 2 of the number of samples; "
-            "1 keeps it, and its blur",
-        .page = "integrators.md#vcm",
-        .place = at([](auto& s) -> auto& { return s.integrator.merging.alpha; })},
+    Setting{.pointer = "/integrator/merge_alpha",
+            .type = RealNumber{{.min = 0.1, .max = 1.0}},
+            .decides = Decides::Samples,
+            .help = "How slowly the merge radius of `vcm` shrinks: by the number of samples to the power (merge_alpha "
+                    "- 1) / 2. With 1 it stays, and so does its blur",
+            .page = "integrators.md#vcm",
+            .place = at([](auto& s) -> auto& { return s.integrator.merging.alpha; })},
 };
 
 }  // namespace etendue

@@ -66,16 +66,16 @@ inline constexpr std::array kViewSettings{
         .decides = Decides::Window,
         .unit = "pixels",
         .default_text = "all",
-        .help = "Render only the pixels from x0, y0 to before x1, y1, with y down from the top left corner; the window "
-                "may go beyond the image",
+        .help = "Render only the pixels from x0, y0 up to but not including x1, y1; y grows downwards from the top "
+                "left corner. The window may reach beyond the image",
         .place = at([](auto& s) -> auto& { return s.film.crop; })},
     Setting{.pointer = "/film/overscan",
             .option = "--overscan",
             .type = RealNumber{{.min = 0.0, .max = kMostSide}, true},
             .decides = Decides::Window,
             .unit = "pixels",
-            .help = "Render as many pixels beyond each edge of the image, which the EXR keeps outside of its display "
-                    "window; a number below 1 is a share of the longer side",
+            .help = "Render this many extra pixels at each edge. The EXR stores them outside its display window. Below "
+                    "1, a share of the longer side",
             .page = "colour.md#overscan",
             .place = at([](auto& s) -> auto& { return s.film.overscan; })},
     Setting{.pointer = "/camera",
@@ -97,7 +97,7 @@ inline constexpr std::array kViewSettings{
             .decides = Decides::Samples,
             .unit = "metres",
             .default_text = "where the scene has it",
-            .help = "Place the camera at e, looking at t, with u (default: 0,1,0) upwards",
+            .help = "Put the camera at e and let it look at t, with u (default: 0,1,0) upwards",
             .place = at([](auto& s) -> auto& { return s.camera_place; })},
     Setting{.pointer = "/film/filter",
             .type = kChoiceOf<kFilterNames>,
