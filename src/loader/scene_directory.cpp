@@ -70,10 +70,17 @@ fs::path choose_scene_file(const fs::path& directory, const std::string& wanted,
         std::vector<fs::path> below = find_scene_directories(directory);
         std::erase(below, directory);
         if (below.empty()) throw SceneError({directory.string(), {}}, "there is no glTF file in this directory");
+        const std::string first = below.front().string();
+        std::error_code code;
+        if (fs::exists(directory / kSettingsName, code))
+            throw SceneError({(directory / kSettingsName).string(), {}},
+                             fmt::format("this file belongs beside a glTF file, and there is none; scenes below, such "
+                                         "as '{}', do not inherit it: move it to a scene, or give options instead",
+                                         first));
         throw SceneError({directory.string(), {}},
                          fmt::format("there is no glTF file in this directory, but scenes are below it, such as '{}': "
                                      "give one of them, or all to 'etendue batch'",
-                                     below.front().string()));
+                                     first));
     }
     fs::path chosen = files.front();
     if (files.size() > 1) {

@@ -194,6 +194,17 @@ TEST_F(Batch, ADryRunSaysWhatWillFail) {
     EXPECT_EQ(run({"--dry-run", "--only", "a"}).exit_code, 0);
 }
 
+TEST_F(Batch, ARenderJsonAboveScenesIsForNone) {
+    add_scene("a");
+    write_file(folder_ / "scenes/render.json", R"({"spp": 3})");
+    const ProgramResult result = run({"--dry-run"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_NE(result.out.find("render.json: this file belongs beside a glTF file, and there is none; scenes below"),
+              std::string::npos)
+        << result.out;
+    EXPECT_EQ(result.out.find("etendue batch"), std::string::npos) << "that is what it is";
+}
+
 TEST_F(Batch, OptionsThatFitNoSceneAreSaidOnce) {
     add_scene("a");
     add_scene("b");
@@ -617,6 +628,7 @@ TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
         EXPECT_EQ(count("unit started").size(), 1u) << "nothing else is begun";
         EXPECT_FALSE(fs::exists(work_ / "out/.etendue"));
         EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["interrupted"], true);
+        EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["units"][0]["camera"], "main");
         EXPECT_EQ(events("batch finished").front()["interrupted"], 1);
         EXPECT_EQ(read_file(work_ / "finished"), "1 1\n");
     }
