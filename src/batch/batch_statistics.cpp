@@ -14,6 +14,7 @@ void read_statistics(const std::filesystem::path& file, BatchUnit& unit) {
     unit.height = number_at<int>(json, "/size/1").value_or(0);
     unit.spp = number_at<int>(json, "/spp/done").value_or(0);
     unit.spp_requested = number_at<int>(json, "/spp/requested").value_or(0);
+    if (unit.camera.empty()) unit.camera = text_at(json, "/camera");
     unit.integrator = text_at(json, "/integrator");
     unit.halt_reason = text_at(json, "/halt_reason");
     unit.seconds = UnitSeconds{number_at<double>(json, "/seconds/load/wall").value_or(0.0),

@@ -75,7 +75,7 @@ SceneError::SceneError(SourceLocation where, std::string message)
 
 std::string name_hint(std::string_view name, std::span<const std::string_view> known) {
     constexpr std::size_t kMostListed = 20;
-    if (known.empty()) return "there are none";
+    if (known.empty()) return "there is no other either";
     const std::string nearest = nearest_name(name, known);
     if (!nearest.empty()) return "did you mean '" + nearest + "'?";
     std::string list = "there are ";

@@ -57,6 +57,7 @@ std::string to_json(const RenderStatistics& s) {
     json["scene"] = s.scene;
     json["integrator"] = s.integrator;
     json["integrator_choice"] = s.integrator_choice.empty() ? Json() : Json(s.integrator_choice);
+    json["camera"] = s.camera.empty() ? Json() : Json(s.camera);
     json["frame"] = s.frame ? Json(*s.frame) : Json();
     json["time_code"] = s.time_code ? Json(*s.time_code) : Json();
     json["command"] = s.command.empty() ? Json() : Json(s.command);

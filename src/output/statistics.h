@@ -60,6 +60,7 @@ struct RenderStatistics {
     std::string scene;
     std::string integrator;
     std::string integrator_choice;    ///< a sentence that says why it was chosen; empty if it was asked for
+    std::string camera;               ///< camera that the image shows; empty if it has no name
     std::optional<int> frame;         ///< number of this frame in its sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
     std::string settings_hash;        ///< equal for equal settings

@@ -19,6 +19,7 @@
 #include "session/checkpoint_files.h"
 #include "session/dropped_samples.h"
 #include "session/image_files.h"
+#include "session/image_outline.h"
 #include "session/input_files.h"
 #include "session/interrupt.h"
 #include "session/library_versions.h"
@@ -164,6 +165,7 @@ class SceneRender {
         description_ = describe_settings(scene_, aovs_);
         description_.depth = request_.overrides.depth;
         RenderStatistics& s = description_.statistics;
+        s.camera = outline_of(scene_).camera;
         s.load = prepared.load;
         s.inputs = std::move(prepared.inputs);
         s.requested_settings = requested;

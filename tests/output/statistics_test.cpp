@@ -53,6 +53,7 @@ RenderStatistics make_statistics() {
     s.texture_cache_budget = 9000;
     s.failed_texture_lookups = 6;
     s.missing_textures = 7;
+    s.camera = "front";
     s.integrator_choice = "'path', since nothing else is needed";
     s.dropped_samples = 3;
     s.first_dropped = {{1, 2, 3}, {4, 5, 6}};
@@ -90,7 +91,7 @@ RenderStatistics make_statistics() {
 TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
-        "format": 1, "scene": "cornell-box", "integrator": "bdpt", "integrator_choice": "'path', since nothing else is needed", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
+        "format": 1, "scene": "cornell-box", "integrator": "bdpt", "integrator_choice": "'path', since nothing else is needed", "camera": "front", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
         "settings": {"/spp": 8, "/color/exposure": 0.1}, "requested_settings": {"/spp": 8},
         "command": "etendue render box",
         "inputs": [{"path": "textures/sky.exr", "size": 12, "modified": 34, "content": "0123"}],
