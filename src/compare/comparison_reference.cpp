@@ -44,11 +44,7 @@ using Members = std::vector<std::size_t>;
 std::string names_text(std::span<const Variant> variants, const Members& members) {
     std::string text;
     for (std::size_t i = 0; i < members.size(); ++i)
-        text += fmt::format("{}'{}'",
-                            i == 0                   ? ""
-                            : i + 1 < members.size() ? ", "
-                                                     : " and of ",
-                            variants[members[i]].name);
+        text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 < members.size() ? ", " : " and ", variants[members[i]].name);
     return text;
 }
 
@@ -81,8 +77,8 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
     if (variants.size() < 2) return "one variant alone cannot be pooled";
     if (!untested.empty() && (groups.empty() || groups.front().size() < 2))
         return fmt::format(
-            "so few pixels make up the image of {} that nothing can be said about whether it agrees with another: give "
-            "it more time",
+            "so few bright pixels make up the image of {} that no test can say whether it agrees with another; more "
+            "--seeds, a larger --size, or a --crop without these pixels help, longer renders may not",
             names_text(variants, untested));
     if (groups.empty() || groups.front().size() < 2)
         return "no two of the variants show the same light and find all of it, and none can be its own reference";
@@ -224,7 +220,7 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
             } else if (pair.not_tested.empty()) {
                 pair.not_tested = images[a].of_seeds.size() < 2
                                       ? "one seed tells nothing of its noise"
-                                      : fmt::format("few pixels make up the image of '{}'",
+                                      : fmt::format("few bright pixels make up the image of '{}'",
                                                     variants[images[a].block_size ? b : a].name);
             }
             pairs.push_back(std::move(pair));
@@ -269,8 +265,8 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
 
     if (!untested.empty())
         notes.push_back(
-            fmt::format("the reference has no part of {}: so few pixels make up the image that nothing can be said "
-                        "about whether it agrees with the others, which its errors are against",
+            fmt::format("the reference has no part of {}: so few bright pixels make up the image that no test can say "
+                        "whether it agrees with the others, which its errors are against",
                         names_text(variants, untested)));
     const Variant& first = variants[members.front()];
     const std::string& integrator = first.settings.integrator.type;
