@@ -72,7 +72,10 @@ std::string plain_name(const std::string& name) {
     for (const char c : name) {
         const bool is_plain =
             (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
-        result += is_plain ? c : '_';
+        if (is_plain)
+            result += c;
+        else if (!result.ends_with('_'))
+            result += '_';
     }
     return result;
 }

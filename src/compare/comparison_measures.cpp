@@ -174,12 +174,20 @@ void fill_ratios(PairReport& pair, const ComparisonReport& report, const Variant
         // The noise of the reference draws the ratio towards 1, by more than the interval knows.
         if (report.reference.noise_rel_mse > 0.0 && std::ranges::find(kWithoutNoise, metric) == kWithoutNoise.end())
             ratio = {.ratio = ratio.ratio};
+        for (const VariantReport* const variant : {&a, &b})
+            if (const std::string why = heavy_tail(*variant, metric); !why.empty()) {
+                ratio = {.ratio = ratio.ratio};
+                pair.no_interval[metric] = why;
+            }
     }
     // All renders of a variant take the same samples: what their times scatter by is the machine's.
     const double times = report.time_of(a).mean() / report.time_of(b).mean();
     for (const char* metric : {kRelMse, kTrimmed}) {
         const RatioInterval& errors = pair.ratios[metric];
-        pair.ratios[std::string(metric) + "_time"] = {errors.ratio * times, errors.low * times, errors.high * times};
+        const std::string with_time = std::string(metric) + "_time";
+        pair.ratios[with_time] = {errors.ratio * times, errors.low * times, errors.high * times};
+        if (const auto why = pair.no_interval.find(metric); why != pair.no_interval.end())
+            pair.no_interval[with_time] = why->second;
     }
     const Work time = report.by_wall ? Work::Seconds : Work::CpuSeconds;
     pair.a_reaches_b = time_to_reach(a, b, time);
@@ -321,8 +329,10 @@ std::string off_budget(const ComparisonReport& report) {
         if (const double time = report.time_of(variant).mean(); std::abs(time / *report.seconds - 1.0) > kMostOff)
             off.push_back(fmt::format("'{}' {:.3g} s", variant.name, time));
     if (off.empty()) return "";
-    return fmt::format("in place of {:.3g} s of {}, renders took in the mean: {}; a longer --time comes nearer to it",
-                       *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
+    return fmt::format(
+        "in place of {:.3g} s of {}, renders took in the mean: {}; a longer --time comes nearer to it, and "
+        "ratios of relMSE x time allow for it",
+        *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
 }
 
 ImageF luminances(const ImageF& image, const Rgb& weights) {

@@ -84,6 +84,7 @@ Json test_of(const PairReport& pair) {
             {"means_agree", agreement.means_agree},
             {"block_size", options.block_size},
             {"tests", agreement.tests},
+            {"only_whole", agreement.only_whole},
             {"p_value", agreement.p_value},
             {"significance", options.significance},
             {"mean_difference", agreement.mean_difference},
@@ -111,6 +112,7 @@ Json to_json(const PairReport& pair) {
                                      return Json::array({interval.low, interval.high});
                                  })},
             {"confidence", kRatioConfidence},
+            {"no_interval", pair.no_interval},
             {"time_to_reach",
              {{"metric", "relmse"},
               {"a_reaches_b", to_json(pair.a_reaches_b)},

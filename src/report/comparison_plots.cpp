@@ -30,9 +30,19 @@ constexpr std::array<PlotColor, 6> kVariantColors{{{0.0, 0.447, 0.698},
                                                    {0.502, 0.4, 0.0},
                                                    {0.333, 0.357, 0.388}}};
 constexpr std::size_t kLongestName = 28;  // bytes of a legend
+constexpr double kWidestName = 130.0;     // points
 
 const PlotColor& color_of(std::size_t variant) {
     return kVariantColors[variant % kVariantColors.size()];
+}
+
+/// Cuts a name for a legend.
+std::string legend_name(const std::string& name) {
+    std::string shown = name;
+    for (std::size_t length = kLongestName; shown.size() > kLongestName || text_width(shown, kFontSize) > kWidestName;
+         --length)
+        shown = fmt::format("{}...", first_characters(name, length - 3));
+    return shown;
 }
 
 /// A logarithmic axis from `low` to `high`, logarithms to base 10, to the positions `from` and `to`.
@@ -128,7 +138,9 @@ class ConvergencePlot {
                  .parts = {}};
         set_axes();
         draw_axes(over_time ? (report.by_wall ? "time (s)" : "CPU time (s)") : "samples per pixel", metric.name);
-        draw_guide(metric.key.find("mse") != std::string::npos ? -1.0 : -0.5);
+        const bool is_squared = metric.key.find("mse") != std::string::npos;
+        draw_guide(is_squared ? -1.0 : -0.5);
+        draw_key(is_squared ? "−1" : "−½");
         for (const PlotSeries& series : series_) draw_range(series);
         for (const PlotSeries& series : series_) draw_lines(series);
         draw_legend();
@@ -202,6 +214,18 @@ class ConvergencePlot {
                   {x_.at(std::pow(10.0, to)), y_.at(std::pow(10.0, y_at(to)))}, kMuted, 0.5, {0.8, 2.4});
     }
 
+    /// Says at the top right what is no mean.
+    void draw_key(const char* slope) {
+        const std::size_t seeds = series_.front().errors.front().values.size();
+        plot_.parts.emplace_back(
+            PlotText{.at = {x_.to, 10.0},
+                     .text = fmt::format("{}{}dots: slope {}", seeds > 1 ? "band: least to most, " : "",
+                                         seeds > 2 ? "dashes: median, " : "", slope),
+                     .anchor = PlotAnchor::End,
+                     .size = 0.75 * kFontSize,
+                     .color = kMuted});
+    }
+
     void draw_range(const PlotSeries& series) {
         std::vector<PlotPoint> area;
         std::vector<PlotPoint> lower;
@@ -255,9 +279,7 @@ class ConvergencePlot {
         double widest = 0.0;
         std::vector<std::string> names;
         for (const PlotSeries& series : series_) {
-            const std::string& name = report_.variants[series.variant].name;
-            names.push_back(name.size() > kLongestName ? fmt::format("{}...", first_characters(name, kLongestName - 3))
-                                                       : name);
+            names.push_back(legend_name(report_.variants[series.variant].name));
             widest = std::max(widest, text_width(names.back(), kFontSize));
         }
         const double width = widest + 19.0;

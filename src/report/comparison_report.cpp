@@ -1,10 +1,13 @@
 #include "report/comparison_report.h"
 
+#include "report/human_units.h"
 #include "report/profile_figures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -39,6 +42,27 @@ double SeedValues::largest() const {
     return values.empty() ? kUnknown : *std::ranges::max_element(values);
 }
 
+std::string heavy_tail(const VariantReport& variant, const std::string& metric) {
+    // The variance of the logarithm of a mean is of first order, and chance decides what a mean of few seeds holds,
+    // where these scatter by more.
+    constexpr double kMostScatter = 0.5;
+    // As much as the largest 0.1% hold if terms follow Pareto's law with the exponent 3/2, whose variance is infinite.
+    constexpr double kMostOfValues = 0.1;
+    const auto found = variant.errors.find(metric);
+    if (found == variant.errors.end()) return "";
+    const SeedValues& errors = found->second;
+    if (errors.deviation() > kMostScatter * errors.mean())
+        return fmt::format("one seed of {} holds {} of the error of '{}'", errors.values.size(),
+                           human_percent(errors.largest() / static_cast<double>(errors.values.size()) / errors.mean()),
+                           variant.name);
+    const auto whole = variant.errors.find("relmse"), trimmed = variant.errors.find("relmse-trimmed");
+    if ((metric != "relmse" && metric != "mse") || whole == variant.errors.end() || trimmed == variant.errors.end())
+        return "";
+    const double of_largest = 1.0 - trimmed->second.mean() / whole->second.mean();
+    if (!(of_largest > kMostOfValues)) return "";
+    return fmt::format("0.1% of the values hold {} of the relMSE of '{}'", human_percent(of_largest), variant.name);
+}
+
 double PairReport::smallest_of_image() const {
     if (!agreement) return kUnknown;
     return smallest_difference(agreement->mean_error, agreement_options.significance, agreement->tests);
@@ -53,7 +77,7 @@ std::string_view PairReport::verdict() const {
     constexpr double kWeak = 0.1;  // larger differences of whole images are not worth the word "agree"
     if (!agreement || !not_tested.empty()) return "not tested";
     if (!agreement->agree()) return "disagree";
-    return smallest_of_image() > kWeak ? "no difference seen" : "agree";
+    return agreement->only_whole || smallest_of_image() > kWeak ? "no difference seen" : "agree";
 }
 
 std::vector<UntestedVariant> ComparisonReport::untested() const {

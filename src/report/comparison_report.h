@@ -81,6 +81,10 @@ struct VariantReport {
     std::map<std::string, ConvergenceSlope> slopes{};  ///< by metric
 };
 
+/// Returns why the seeds' errors of `variant` by `metric` have tails too heavy for an interval of their mean, the end
+/// of a sentence; empty if they do not. docs/compare.md states the bounds.
+[[nodiscard]] std::string heavy_tail(const VariantReport& variant, const std::string& metric);
+
 /// How long one variant takes to come to another's error.
 struct ReachedError {
     double seconds = 0.0;
@@ -92,6 +96,7 @@ struct PairReport {
     std::string b{};
     /// Holds a's over b's: metrics, "relmse_time", "relmse-trimmed_time", "rays_per_second", "efficiency".
     std::map<std::string, RatioInterval> ratios{};
+    std::map<std::string, std::string> no_interval{};  ///< ends of sentences: why ratios of heavy tails have none
     std::optional<ReachedError> a_reaches_b{};
     std::optional<ReachedError> b_reaches_a{};
     std::string different_light{};  ///< why they show different light by what was asked for; empty if they do not
@@ -104,8 +109,8 @@ struct PairReport {
     /// a block of median noise; unknown without a test.
     [[nodiscard]] double smallest_of_image() const;
     [[nodiscard]] double smallest_of_block() const;
-    /// Returns the outcome of the test in a word: "agree", "disagree", or "no difference seen" if it would have seen
-    /// only a large one, or "not tested".
+    /// Returns the outcome of the test in a word: "agree", "disagree", "not tested", or "no difference seen" if it
+    /// would have seen only a large one or could look at the whole image only.
     [[nodiscard]] std::string_view verdict() const;
 };
 

@@ -2,7 +2,9 @@
 #include "report/comparison_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -73,24 +75,29 @@ std::string tex_number(double value) {
     return std::isfinite(value) ? fmt::format("${}$", tex_formula(value, kDigits)) : "--";
 }
 
+/// Marks a ratio whose seeds' tails are too heavy for an interval.
+constexpr const char* kNoInterval = "$^\\dagger$";
+
 std::string tex_interval(const RatioInterval& interval) {
     if (!std::isfinite(interval.low)) return tex_number(interval.ratio);
     return fmt::format("{} [{}, {}]", tex_number(interval.ratio), tex_number(interval.low), tex_number(interval.high));
 }
 
-/// `columns` says how each is aligned, as LaTeX has it.
-std::string tex_table(const std::string& columns, const std::vector<std::vector<std::string>>& rows) {
+/// `columns` says how each is aligned, as LaTeX has it; `below` are rows under the last line.
+std::string tex_table(const std::string& columns, const std::vector<std::vector<std::string>>& rows,
+                      const std::string& below = "") {
     std::string text = fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n", columns);
     for (std::size_t i = 0; i < rows.size(); ++i)
         text += fmt::format("{} \\\\\n{}", fmt::join(rows[i], " & "), i == 0 ? "\\midrule\n" : "");
-    return text + "\\bottomrule\n\\end{tabular}\n";
+    return text + "\\bottomrule\n" + below + "\\end{tabular}\n";
 }
 
 std::vector<std::vector<std::string>> variant_rows(const ComparisonReport& report) {
     std::vector<std::vector<std::string>> rows{{"Variant", "spp", "time (s)", "CPU time (s)"}};
     for (const ReportedMetric& metric : report.metrics) rows.front().push_back(tex_text(metric.name));
-    for (const char* head : {"median relMSE", "slope"})
-        if (!report.metrics.empty()) rows.front().emplace_back(head);
+    const bool has_errors = !report.metrics.empty();
+    for (const char* head : has_errors ? std::array{"median relMSE", "slope"} : std::array{"variance", "efficiency"})
+        rows.front().emplace_back(head);
     for (const VariantReport& variant : report.variants) {
         std::vector<std::string> row{tex_text(variant.name), fmt::format("{}", variant.spp),
                                      tex_number(variant.seconds.mean()), tex_number(variant.cpu_seconds.mean())};
@@ -101,25 +108,60 @@ std::vector<std::vector<std::string>> variant_rows(const ComparisonReport& repor
                               ? fmt::format("{} $\\pm$ {}", tex_number(values.mean()), tex_number(values.deviation()))
                               : tex_number(values.mean()));
         }
-        if (!report.metrics.empty()) {
+        if (has_errors) {
             const auto error = variant.errors.find("relmse");
             row.push_back(error == variant.errors.end() ? "--" : tex_number(error->second.median()));
             const auto slope = variant.slopes.find("relmse");
             row.push_back(slope == variant.slopes.end() ? "--" : tex_number(slope->second.spp));
+        } else {
+            row.insert(row.end(), {tex_number(variant.variance), tex_number(variant.efficiency)});
         }
         rows.push_back(std::move(row));
     }
     return rows;
 }
 
+using KeysAndHeads = std::vector<std::pair<std::string, std::string>>;
+
+/// Returns the ratios that are shown: of errors, those without fireflies first where others have no interval; without a
+/// reference, those that need none.
+KeysAndHeads shown_ratios(const ComparisonReport& report) {
+    if (report.metrics.empty()) return {{"rays_per_second", "rays per second"}, {"efficiency", "efficiency"}};
+    KeysAndHeads shown{{"relmse", "relMSE"},
+                       {"relmse-trimmed", "trimmed"},
+                       {"relmse_time", "relMSE $\\times$ time"},
+                       {"relmse-trimmed_time", "trimmed $\\times$ time"}};
+    if (std::ranges::any_of(report.pairs, [](const PairReport& pair) { return pair.no_interval.contains("relmse"); }))
+        std::ranges::stable_partition(shown,
+                                      [](const auto& ratio) { return ratio.first.starts_with("relmse-trimmed"); });
+    return shown;
+}
+
+/// Returns the rows that say why ratios have no interval.
+std::string reasons(const ComparisonReport& report, std::size_t columns) {
+    std::set<std::string> whys;
+    for (const PairReport& pair : report.pairs)
+        for (const auto& [key, head] : shown_ratios(report))
+            if (const auto why = pair.no_interval.find(key); why != pair.no_interval.end()) whys.insert(why->second);
+    std::string text;
+    for (const std::string& why : whys)
+        text +=
+            fmt::format("\\multicolumn{{{}}}{{l}}{{{} no interval: {}}} \\\\\n", columns, kNoInterval, tex_text(why));
+    return text;
+}
+
 std::vector<std::vector<std::string>> pair_rows(const ComparisonReport& report) {
-    std::vector<std::vector<std::string>> rows{
-        {"$a$ / $b$", "relMSE", "trimmed", "relMSE $\\times$ time", "trimmed $\\times$ time", "agree"}};
+    const KeysAndHeads shown = shown_ratios(report);
+    std::vector<std::vector<std::string>> rows{{"$a$ / $b$"}};
+    for (const auto& [key, head] : shown) rows.front().push_back(head);
+    rows.front().emplace_back("agree");
     for (const PairReport& pair : report.pairs) {
         std::vector<std::string> row{fmt::format("{} / {}", tex_text(pair.a), tex_text(pair.b))};
-        for (const char* key : {"relmse", "relmse-trimmed", "relmse_time", "relmse-trimmed_time"}) {
+        for (const auto& [key, head] : shown) {
             const auto ratio = pair.ratios.find(key);
-            row.push_back(ratio == pair.ratios.end() ? "--" : tex_interval(ratio->second));
+            row.push_back(ratio == pair.ratios.end()
+                              ? "--"
+                              : tex_interval(ratio->second) + (pair.no_interval.contains(key) ? kNoInterval : ""));
         }
         row.push_back(!pair.not_tested.empty() || !pair.agreement
                           ? "not tested"
@@ -155,7 +197,7 @@ std::string to_tex(const ComparisonReport& report) {
                       "% difference of whole images that the test sees with a probability of {:g}. Time is\n"
                       "% {}.\n{}",
                       100.0 * kRatioConfidence, kPower, report.by_wall ? "that on the clock" : "CPU time",
-                      tex_table(columns_of(pairs), pairs));
+                      tex_table(columns_of(pairs), pairs, reasons(report, pairs.front().size())));
 }
 
 }  // namespace etendue
