@@ -167,7 +167,7 @@ std::vector<EarlierProfile> read_history(const std::vector<std::string>& files, 
     std::vector<EarlierProfile> history;
     for (const std::string& file : files) {
         const ProfileBaseline profile = parse_profile(read_text(file), file);
-        if (const std::string difference = difference_of_work(profile, now); !difference.empty())
+        if (const std::string difference = difference_of_work(profile, now, "the earlier profile"); !difference.empty())
             throw SceneError({file, {}}, difference);
         EarlierProfile& entry = history.emplace_back(EarlierProfile{file, profile.created, profile.program, {}});
         for (const ProfileRun& run : profile.runs)
@@ -247,7 +247,9 @@ std::exception_ptr write_with_heat_maps(const ProfileArguments& arguments,
 /// Says which runs have become slower than those of --against, if any have.
 ExitCode compare_with_earlier(const ProfileArguments& arguments, const ProfileReport& report) {
     if (!report.against || !report.against->has_regression()) return ExitCode::Success;
-    log_error("error: {}: slower than that: {}", arguments.against, fmt::join(report.against->slower_runs(), ", "));
+    const std::vector<std::string> slower = report.against->slower_runs();
+    log_error("error: {} {} become slower than in {}", fmt::join(slower, ", "), slower.size() == 1 ? "has" : "have",
+              arguments.against);
     return ExitCode::DiffFailed;
 }
 
@@ -320,7 +322,7 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
                         ->check(CLI::ExistingFile);
     command
         .add_option("--tolerance", arguments.tolerance,
-                    "How much slower counts as none for --against, as a share of the time (default: 0.02, which is 2%)")
+                    "--against ignores slowdowns up to this share of the time (default: 0.02, which is 2%)")
         ->check(real_range(0.0, 10.0))
         ->needs(against);
     add_accelerator_options(command, arguments.accelerators);

@@ -5,7 +5,9 @@
 #include "world/accelerated_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -26,6 +28,14 @@ constexpr int kMostMapWidth = 480;
 /// Limits the triangles of which the growth of brute force is measured: a ray takes a millisecond there.
 constexpr std::uint64_t kMostBruteTriangles = 100'000;
 constexpr std::size_t kGrowthRays = std::size_t{1} << 15;
+
+/// A few rays that follow each other, and what tracing them took and met.
+struct TracedChunk {
+    std::span<const Ray> rays{};
+    double seconds = 0.0;
+    RayWork work{};
+    HitAgreement agreement{};
+};
 
 /// One structure over a World, or Embree, which the World has anyway.
 class Tracer {
@@ -50,48 +60,60 @@ class Tracer {
     /// Returns the structure, or null for Embree.
     [[nodiscard]] const AcceleratedScene* scene() const { return scene_.get(); }
 
-    /// Traces as many of `rays` as it can in the time, and compares the hits of these with Embree's if `compares`.
-    [[nodiscard]] TracedKind trace(std::span<const Ray> rays, bool occlusion, bool compares) const {
-        RayWork work;
-        std::vector<double> seconds;  // of each chunk
+    /// Traces as many of `rays` as it can in the time, and then compares the hits of these with Embree's if `compares`.
+    [[nodiscard]] std::vector<TracedChunk> trace(std::span<const Ray> rays, bool occlusion, bool compares) const {
+        std::vector<TracedChunk> chunks;
         double sum = 0.0;
-        std::size_t traced = 0;
-        while (traced < rays.size() && sum < kSecondsPerKind) {
-            const auto chunk = rays.subspan(traced, std::min(kChunk, rays.size() - traced));
-            seconds.push_back(scene_ ? scene_->replay(chunk, occlusion, work)
-                                     : geometry_.replay(chunk, occlusion, Coherence::Incoherent, QueryForm::Single));
-            sum += seconds.back();
-            traced += chunk.size();
+        for (std::span<const Ray> left = rays; !left.empty() && sum < kSecondsPerKind;) {
+            const auto traced = left.first(std::min(kChunk, left.size()));
+            TracedChunk& chunk = chunks.emplace_back(TracedChunk{.rays = traced});
+            chunk.seconds = scene_ ? scene_->replay(traced, occlusion, chunk.work)
+                                   : geometry_.replay(traced, occlusion, Coherence::Incoherent, QueryForm::Single);
+            sum += chunk.seconds;
+            left = left.subspan(traced.size());
         }
-        TracedKind result;
-        const auto count = static_cast<double>(traced);
-        result.traced = {.rays = traced, .rays_per_second = undisturbed_rate(std::move(seconds), count)};
-        if (!scene_ || traced == 0) return result;
-        result.traced.nodes = static_cast<double>(work.nodes) / count;
-        result.traced.triangles = static_cast<double>(work.triangles) / count;
-        if (!compares) return result;
-        const HitAgreement agreement = scene_->compare_with_embree(rays.first(traced), occlusion);
-        result.ties = agreement.ties;
-        result.differ = agreement.differ;
-        return result;
+        if (scene_ && compares)
+            for (TracedChunk& chunk : chunks) chunk.agreement = scene_->compare_with_embree(chunk.rays, occlusion);
+        return chunks;
     }
 
   private:
-    /// Returns how many of `count` things there are to a second, without the slowest of `seconds`: then, most likely,
-    /// some other process ran.
-    [[nodiscard]] static double undisturbed_rate(std::vector<double> seconds, double count) {
-        if (seconds.empty()) return 0.0;
-        std::ranges::sort(seconds);
-        const std::size_t kept = std::max<std::size_t>(1, seconds.size() - seconds.size() / kSlowestShare);
-        const double share = static_cast<double>(kept) / static_cast<double>(seconds.size());
-        const double sum = std::accumulate(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(kept), 0.0);
-        return sum > 0.0 ? share * count / sum : 0.0;
-    }
-
     const SceneGeometry& geometry_;
     std::unique_ptr<const AcceleratedScene> scene_;
     AcceleratorMeasure measure_;
 };
+
+/// Returns how many of `count` rays there are to a second, without the slowest of `chunks`: then, most likely, some
+/// other process ran.
+double undisturbed_rate(std::span<const TracedChunk> chunks, double count) {
+    if (chunks.empty()) return 0.0;
+    std::vector<double> seconds;
+    seconds.reserve(chunks.size());
+    for (const TracedChunk& chunk : chunks) seconds.push_back(chunk.seconds);
+    std::ranges::sort(seconds);
+    const std::size_t kept = std::max<std::size_t>(1, seconds.size() - seconds.size() / kSlowestShare);
+    const double share = static_cast<double>(kept) / static_cast<double>(seconds.size());
+    const double sum = std::accumulate(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(kept), 0.0);
+    return sum > 0.0 ? share * count / sum : 0.0;
+}
+
+/// Sums up what a structure did with rays. Embree does not tell what it visits.
+TracedKind sum_up(std::span<const TracedChunk> chunks, AcceleratorKind kind) {
+    TracedKind result;
+    RayWork work;
+    for (const TracedChunk& chunk : chunks) {
+        result.traced.rays += chunk.rays.size();
+        work.add(chunk.work);
+        result.ties += chunk.agreement.ties;
+        result.differ += chunk.agreement.differ;
+    }
+    const auto count = static_cast<double>(result.traced.rays);
+    result.traced.rays_per_second = undisturbed_rate(chunks, count);
+    if (kind == AcceleratorKind::Embree || chunks.empty()) return result;
+    result.traced.nodes = static_cast<double>(work.nodes) / count;
+    result.traced.triangles = static_cast<double>(work.triangles) / count;
+    return result;
+}
 
 VisitMap map_visits(const World& world, const AcceleratedScene& scene, const std::string& name, int width, int height) {
     const int shown_width = std::min(width, kMostMapWidth);
@@ -196,22 +218,28 @@ void RecordedRays::add(const WaveProfile& profile) {
 AcceleratorRuns measure_accelerators(const World& world, const std::vector<AcceleratorKind>& kinds,
                                      const RecordedRays& rays, int width, int height) {
     AcceleratorRuns runs;
+    std::vector<std::array<std::vector<TracedChunk>, kRayKinds>> traced;  // by structure
     for (const AcceleratorKind kind : kinds) {
         const Tracer tracer(world, kind);
-        AcceleratorMeasure measure = tracer.measure();
+        auto& of_structure = traced.emplace_back();
         for (std::size_t i = 0; i < kRayKinds; ++i) {
             const auto ray_kind = static_cast<RayKind>(i);
-            if (rays.of(ray_kind).empty()) continue;
-            if (interrupt_requested().load()) {
-                runs.interrupted = true;
-                return runs;
-            }
-            TracedKind traced = tracer.trace(rays.of(ray_kind), asks_for_occlusion(ray_kind), true);
-            traced.kind = kRayKindNames[i];
-            measure.kinds.push_back(std::move(traced));
+            runs.interrupted = interrupt_requested().load();
+            if (runs.interrupted) return runs;
+            of_structure[i] = tracer.trace(rays.of(ray_kind), asks_for_occlusion(ray_kind), true);
         }
+        const AcceleratorMeasure& measure = runs.report.measures.emplace_back(tracer.measure());
         if (measure.nodes > 0) runs.visits.push_back(map_visits(world, *tracer.scene(), measure.name, width, height));
-        runs.report.measures.push_back(std::move(measure));
+    }
+    for (std::size_t i = 0; i < kRayKinds; ++i) {
+        if (rays.of(static_cast<RayKind>(i)).empty()) continue;
+        std::size_t common = std::numeric_limits<std::size_t>::max();
+        for (const auto& of_structure : traced) common = std::min(common, of_structure[i].size());
+        for (std::size_t s = 0; s < kinds.size(); ++s) {
+            TracedKind& kind = runs.report.measures[s].kinds.emplace_back();
+            kind = sum_up(std::span(traced[s][i]).first(common), kinds[s]);
+            kind.kind = kRayKindNames[i];
+        }
     }
     return runs;
 }
@@ -230,7 +258,7 @@ std::vector<GrowthPoint> measure_growth(const std::vector<AcceleratorKind>& kind
                               .triangles = measure.triangles,
                               .build_seconds = measure.build_seconds,
                               .bytes = measure.bytes,
-                              .traced = tracer.trace(rays, false, false).traced});
+                              .traced = sum_up(tracer.trace(rays, false, false), kind).traced});
         }
     }
     return points;

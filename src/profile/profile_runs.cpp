@@ -1,6 +1,5 @@
 #include "profile/profile_runs.h"
 
-#include "core/process_time.h"
 #include "picture/render_setup.h"
 #include "process/hardware_counters.h"
 #include "process/peak_memory.h"
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -248,32 +246,31 @@ class RunMeasurement {
         run.light_sampling_used = share(shadow, waves.use().light_samples);
     }
 
-    /// Traces the recorded rays again on all threads at once, as they were rendered.
+    /// Traces the recorded rays again on all threads at once, as they were rendered; each segment counts with the
+    /// median of its times.
     void replay(const ThreadPool& threads, const RayRecorder& recorder, RayKind kind, RayKindReport& report) const {
         const Coherence coherence = is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent;
         const std::span<const std::vector<Ray>> segments = recorder.segments();
         constexpr std::array kForms{QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16};
-        std::array<std::vector<double>, kForms.size()> seconds;
+        // Others seldom take the processor within the microseconds of a segment, and hardly ever twice within the same.
+        std::array<std::vector<std::vector<double>>, kForms.size()> seconds;
+        seconds.fill(std::vector<std::vector<double>>(segments.size()));
         const auto parts = static_cast<std::size_t>(threads.thread_count());
         for (int round = 0; round < kReplays; ++round)
-            for (std::size_t form = 0; form < kForms.size(); ++form) {
-                std::vector<double> of_part(parts, 0.0);
+            for (std::size_t form = 0; form < kForms.size(); ++form)
                 threads.parallel_for(parts, [&](std::size_t part, int) {
-                    const auto start = std::chrono::steady_clock::now();
-                    const double cpu_before = thread_cpu_seconds();
                     for (std::size_t s = part; s < segments.size(); s += parts)
-                        of_part[part] +=
-                            world_.geometry().replay(segments[s], asks_for_occlusion(kind), coherence, kForms[form]);
-                    // Less what other programs took. Segments are too short for that clock, a call of the system.
-                    const double cpu = thread_cpu_seconds() - cpu_before;
-                    of_part[part] *= std::min(1.0, rate(cpu, seconds_since(start)));
+                        seconds[form][s].push_back(
+                            world_.geometry().replay(segments[s], asks_for_occlusion(kind), coherence, kForms[form]));
                 });
-                seconds[form].push_back(std::accumulate(of_part.begin(), of_part.end(), 0.0));
-            }
-        const auto recorded = static_cast<double>(report.recorded);
-        report.single = recorded / median(seconds[0]);
-        report.packet8 = recorded / median(seconds[1]);
-        report.packet16 = recorded / median(seconds[2]);
+        const auto rate_of = [&](std::size_t form) {
+            double sum = 0.0;
+            for (const std::vector<double>& of_segment : seconds[form]) sum += median(of_segment);
+            return static_cast<double>(report.recorded) / sum;
+        };
+        report.single = rate_of(0);
+        report.packet8 = rate_of(1);
+        report.packet16 = rate_of(2);
     }
 
     /// Makes the map of costs of `integrator`, from its run on most threads; the rays are counted by a render of their
@@ -311,20 +308,15 @@ class RunMeasurement {
         return true;
     }
 
-    /// Compares runs with those on one thread, by pairs of repetitions that took turns.
+    /// Compares runs with those on one thread, by the medians of the times that are reported.
     void compare_threads() {
         for (Setup& setup : setups_) {
             const auto alone = std::ranges::find_if(setups_, [&](const Setup& other) {
                 return other.run.threads == 1 && other.run.integrator == setup.run.integrator;
             });
             if (alone == setups_.end()) continue;
-            std::vector<double> ratios;
-            const auto rate = [](const ProfileRun& run, std::size_t i) {
-                return static_cast<double>(run.samples) / run.seconds[i];
-            };
-            for (std::size_t i = 0; i < setup.run.seconds.size(); ++i)
-                ratios.push_back(rate(setup.run, i) / (rate(alone->run, i) * setup.run.threads));
-            setup.run.parallel_efficiency = median(std::move(ratios));
+            setup.run.parallel_efficiency =
+                samples_per_second(setup.run) / (samples_per_second(alone->run) * setup.run.threads);
         }
     }
 

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -42,7 +44,10 @@ Ray beyond_end(const Ray& ray) {
 
 class HitCounter {
   public:
-    HitCounter(const World& world, const SceneHitNames& names) : world_(world), names_(names) {}
+    HitCounter(const World& world, const SceneHitNames& names) : world_(world), names_(names) {
+        for (std::uint32_t light = 0; light < world.lights().count(); ++light)
+            lit_instances_.insert(world.lights().emitter(light).instance);
+    }
 
     void add_nearest(const std::vector<Ray>& rays, double weight) {
         hits_.resize(rays.size());
@@ -65,7 +70,9 @@ class HitCounter {
         world_.geometry().intersect(ends_, hits_, Coherence::Incoherent);
         world_.geometry().occluded(rays, blocked_);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            LampReport& lamp = lamps_[hits_[i].valid() ? names_.objects[hits_[i].instance] : kNoSurface];
+            const std::string* const name = lamp_at(hits_[i]);
+            if (name == nullptr) continue;
+            LampReport& lamp = lamps_[*name];
             lamp.shadow_rays += weight;
             if (blocked_[i] == kOccluded) lamp.blocked += weight;
         }
@@ -82,10 +89,18 @@ class HitCounter {
     }
 
   private:
-    static constexpr const char* kNoSurface = "lights without a surface";
+    /// Returns the name of the lamp at which a shadow ray ends that meets `hit` there; null if it cannot be told, as
+    /// where a ray grazes the lamp and meets the wall behind.
+    [[nodiscard]] const std::string* lamp_at(const Hit& hit) const {
+        static const std::string kNoSurface = "lights without a surface";
+        if (hit.valid() && lit_instances_.contains(hit.instance)) return &names_.objects[hit.instance];
+        if (lit_instances_.contains(kNone)) return &kNoSurface;
+        return lit_instances_.size() == 1 ? &names_.objects[*lit_instances_.begin()] : nullptr;
+    }
 
     const World& world_;
     const SceneHitNames& names_;
+    std::set<std::uint32_t> lit_instances_;  ///< with a light on them; kNone if there are lights without a surface
     std::vector<Hit> hits_;
     std::vector<Ray> ends_;
     std::vector<std::uint8_t> blocked_;

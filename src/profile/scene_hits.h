@@ -21,8 +21,8 @@ struct SceneHitNames {
 [[nodiscard]] SceneHitNames scene_names(const SceneDesc& scene);
 
 /// Counts the hits of all rays of `rays` that look for the nearest surface, by object, material and image, and shadow
-/// rays by the surface at which they end. The rays of `profile` are traced again; each stands for as many of its kind
-/// as were not recorded.
+/// rays by the lamp at which they end. The rays of `profile` are traced again; each stands for as many of its kind as
+/// were not recorded.
 [[nodiscard]] SceneHitsReport count_scene_hits(const World& world, const SceneHitNames& names,
                                                const WaveProfile& profile, const RaysByKind& rays);
 

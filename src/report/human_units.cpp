@@ -61,4 +61,8 @@ std::string human_percent(double share) {
     return std::isfinite(share) ? fmt::format("{:.1f}%", 100.0 * share) : "-";
 }
 
+std::string rough_percent(double share) {
+    return std::isfinite(share) ? fmt::format("{:.{}f}%", 100.0 * share, share < 0.0995 ? 1 : 0) : "-";
+}
+
 }  // namespace etendue

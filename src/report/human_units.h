@@ -16,5 +16,7 @@ namespace etendue {
 
 /// Writes a share in [0, 1] as a percentage: "37.2%".
 [[nodiscard]] std::string human_percent(double share);
+/// Writes a share that was estimated from a sample: "66%", below 10% with one decimal.
+[[nodiscard]] std::string rough_percent(double share);
 
 }  // namespace etendue

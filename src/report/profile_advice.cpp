@@ -18,11 +18,21 @@ namespace {
 /// Shares of the time from which on something is worth a sentence.
 constexpr double kMuchTime = 0.1;
 constexpr double kMuchWaiting = 0.15;
+/// Share of the rays from which on leaving them out is worth a sentence.
+constexpr double kManyRays = 0.02;
 
-struct Advice {
-    double share = 0.0;  ///< share of the time
+struct Sentence {
+    double share = 0.0;  ///< share of the time, or of the rays
     std::string text{};
 };
+
+std::vector<std::string> sorted_texts(std::vector<Sentence> sentences) {
+    std::ranges::stable_sort(sentences, std::ranges::greater{}, &Sentence::share);
+    std::vector<std::string> texts;
+    texts.reserve(sentences.size());
+    for (const Sentence& sentence : sentences) texts.push_back(sentence.text);
+    return texts;
+}
 
 const RayKindReport* kind_of(const ProfileRun& run, std::string_view name) {
     const auto found = std::ranges::find(run.kinds, name, &RayKindReport::kind);
@@ -55,24 +65,20 @@ ThreadTime thread_time(const ProfileRun& run) {
 
 class Adviser {
   public:
-    explicit Adviser(const ProfileRun& run) : run_(run), all_(sum_of(run.stages)) {}
-
-    [[nodiscard]] std::vector<std::string> sentences() {
+    explicit Adviser(const ProfileRun& run) : run_(run), all_(sum_of(run.stages)) {
         rays();
         light_samples();
         stages();
         long_paths();
         threads();
-        std::ranges::stable_sort(found_, std::ranges::greater{}, &Advice::share);
-        std::vector<std::string> texts;
-        texts.reserve(found_.size());
-        for (const Advice& advice : found_) texts.push_back(advice.text);
-        return texts;
     }
 
+    [[nodiscard]] const std::vector<Sentence>& costs() const { return costs_; }
+    [[nodiscard]] const std::vector<Sentence>& changes() const { return changes_; }
+
   private:
-    void add(double share, double least, std::string text) {
-        if (share >= least) found_.push_back({share, std::move(text)});
+    static void add(std::vector<Sentence>& sentences, double share, double least, std::string text) {
+        if (share >= least) sentences.push_back({share, std::move(text)});
     }
 
     void rays() {
@@ -83,10 +89,13 @@ class Adviser {
             if (kind.kind == "shadow" && kind.hit_share > 0.0)
                 text += fmt::format("; {} of them are blocked{}", human_percent(kind.hit_share), most_blocked());
             // Full packets take hardly longer than those that are half full.
-            if (kind.packet_fill < 0.75)
-                text += fmt::format("; their packets are {} full{}", human_percent(kind.packet_fill),
-                                    run_.spp < 16 ? ", and with --spp 16 or more they are fuller" : "");
-            add(share, kMuchTime, text);
+            if (kind.packet_fill < 0.75) {
+                text += fmt::format("; their packets are {} full", human_percent(kind.packet_fill));
+                if (run_.spp < 16)
+                    add(changes_, share, kMuchTime,
+                        fmt::format("--spp 16 or more fills the packets of {} rays", kind.kind));
+            }
+            add(costs_, share, kMuchTime, text);
         }
     }
 
@@ -97,9 +106,9 @@ class Adviser {
         double blocked = 0.0;
         for (const LampReport& lamp : lamps) blocked += lamp.blocked;
         const auto most = std::ranges::max_element(lamps, {}, &LampReport::blocked);
-        return blocked > 0.0
-                   ? fmt::format(", {} of those on the way to '{}'", human_percent(most->blocked / blocked), most->name)
-                   : "";
+        return blocked > 0.0 ? fmt::format(", about {} of those on the way to '{}'",
+                                           rough_percent(most->blocked / blocked), most->name)
+                             : "";
     }
 
     void light_samples() {
@@ -110,22 +119,24 @@ class Adviser {
         // What the eye sees directly has so many light samples at each point, all else one.
         const double samples = static_cast<double>(shadow->rays) / run_.light_sampling_used;
         const double saved = (run_.light_samples - 1) * static_cast<double>(camera->rays) * camera->hit_share;
+        // Counts, other than times, are those of every profile of this work.
         const double share =
-            std::min(1.0, saved / samples) * (rate(shadow->seconds, all_) + stage_share(run_, "light sampling"));
-        add(share, 0.02,
-            fmt::format("--light-samples 1 in place of {} saves about {}, and direct light has more noise",
-                        run_.light_samples, human_percent(share)));
+            std::min(1.0, saved / samples) * rate(static_cast<double>(shadow->rays), static_cast<double>(run_.rays));
+        add(changes_, share, kManyRays,
+            fmt::format(
+                "--light-samples 1 in place of {} leaves out about {} of the rays, and direct light has more noise",
+                run_.light_samples, rough_percent(share)));
     }
 
     void stages() {
         const double textures = stage_share(run_, "textures");
-        add(textures, kMuchTime,
+        add(costs_, textures, kMuchTime,
             fmt::format("textures are {} of the time{}", human_percent(textures), most_of(run_.scene_hits.textures)));
         const double material = stage_share(run_, "material evaluation");
-        add(material, 0.2,
+        add(costs_, material, 0.2,
             fmt::format("evaluating materials is {} of the time{}", human_percent(material),
                         most_of(run_.scene_hits.materials)));
-        add(rate(run_.bsdf_absorbed * material, 1.0), 0.02,
+        add(costs_, rate(run_.bsdf_absorbed * material, 1.0), 0.02,
             fmt::format(
                 "{} of the BSDF samples have no weight: material evaluation, {} of the time, makes them in vain",
                 human_percent(run_.bsdf_absorbed), human_percent(material)));
@@ -133,8 +144,8 @@ class Adviser {
 
     [[nodiscard]] static std::string most_of(const std::vector<NamedValue>& hits) {
         if (hits.size() < 2) return "";
-        return fmt::format("; '{}' has {} of the hits", hits.front().name,
-                           human_percent(rate(hits.front().value, sum_of(hits))));
+        return fmt::format("; '{}' has about {} of the hits", hits.front().name,
+                           rough_percent(rate(hits.front().value, sum_of(hits))));
     }
 
     void long_paths() {
@@ -151,39 +162,45 @@ class Adviser {
         rays = beyond(0);
         for (const std::size_t depth : kDepths) {
             const double share = rate(beyond(depth), rays);
-            if (!(share >= 0.02 && share < 0.5)) continue;
-            add(share, 0.02,
-                fmt::format("{} of the rays of eye paths lie beyond their ray number {}: --max-depth {} saves about "
-                            "that, and the light of longer paths is missing",
-                            human_percent(share), depth, depth));
+            if (!(share >= kManyRays && share < 0.5)) continue;
+            add(changes_, share, kManyRays,
+                fmt::format(
+                    "{} of the rays of eye paths lie beyond their ray number {}: --max-depth {} leaves out these, "
+                    "the other rays that they cause, and the light of longer paths",
+                    human_percent(share), depth, depth));
             return;
         }
     }
 
     void threads() {
         const double waiting = thread_time(run_).waiting;
-        add(waiting, kMuchWaiting,
+        add(changes_, waiting, kMuchWaiting,
             fmt::format(
                 "threads have no tile for {} of their time, most of it at the ends of passes; larger images and "
                 "more --spp leave less of it",
                 human_percent(waiting)));
         if (run_.threads > 1 && run_.parallel_efficiency < 0.8)
-            add(1.0 - run_.parallel_efficiency, 0.0,
+            add(costs_, 1.0 - run_.parallel_efficiency, 0.0,
                 fmt::format("{} threads do the work of {:.1f}", run_.threads, run_.threads * run_.parallel_efficiency));
-        add(run_.load_imbalance, kMuchWaiting,
+        add(costs_, run_.load_imbalance, kMuchWaiting,
             fmt::format("the busiest thread renders {} longer than the mean of all: tiles are unequal, or few",
                         human_percent(run_.load_imbalance)));
     }
 
     const ProfileRun& run_;
     double all_;
-    std::vector<Advice> found_;
+    std::vector<Sentence> costs_;
+    std::vector<Sentence> changes_;
 };
 
 }  // namespace
 
+std::vector<std::string> costs(const ProfileRun& run) {
+    return sorted_texts(Adviser(run).costs());
+}
+
 std::vector<std::string> advice(const ProfileRun& run) {
-    return Adviser(run).sentences();
+    return sorted_texts(Adviser(run).changes());
 }
 
 std::string busy_machine(const ProfileRun& run) {
@@ -191,8 +208,11 @@ std::string busy_machine(const ProfileRun& run) {
     const double taken = thread_time(run).taken;
     if (!(taken > kMostTaken)) return "";
     return fmt::format(
-        "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times and efficiency hold, "
-        "but seconds of stages, rays per second and all else by the clock do not",
+        "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times, bare Embree's rates "
+        "and "
+        "efficiency hold but for what others take of the caches; seconds of stages, rays per second of the renderer "
+        "and "
+        "all else by the clock do not",
         run.integrator, run.threads, human_percent(taken));
 }
 

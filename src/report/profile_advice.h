@@ -8,8 +8,10 @@
 
 namespace etendue {
 
-/// Sentences with figures on what takes much of the time of `run` and what would change it, those of most time first;
-/// none where nothing stands out.
+/// Returns sentences on what takes much of the time of `run`, the most first; none where nothing stands out.
+[[nodiscard]] std::vector<std::string> costs(const ProfileRun& run);
+
+/// Returns sentences on what would make `run` less work, the most first; none where nothing would.
 [[nodiscard]] std::vector<std::string> advice(const ProfileRun& run);
 
 /// Returns a sentence if others took more than a fifth of the threads' time while stages were timed; else empty.

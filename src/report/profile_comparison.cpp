@@ -1,5 +1,6 @@
 #include "report/profile_comparison.h"
 
+#include "report/profile_advice.h"
 #include "report/profile_figures.h"
 #include "report/profile_report.h"
 #include "report/ratio_interval.h"
@@ -58,7 +59,7 @@ ComparedRun compare_run(const ProfileRun& before, const ProfileRun& now, const P
 
 /// The first setting that the two do not share; empty if there is none.
 std::string difference_of_settings(const std::map<std::string, std::string>& before,
-                                   const std::map<std::string, std::string>& now) {
+                                   const std::map<std::string, std::string>& now, std::string_view earlier) {
     std::set<std::string> names;
     for (const auto* settings : {&before, &now})
         for (const auto& [name, value] : *settings) names.insert(name);
@@ -68,7 +69,7 @@ std::string difference_of_settings(const std::map<std::string, std::string>& bef
     };
     for (const std::string& name : names)
         if (const std::string was = text(before, name), is = text(now, name); was != is)
-            return fmt::format("the setting '{}' differs: {} in the baseline, {} now", name, was, is);
+            return fmt::format("the setting '{}' differs: {} in {}, {} now", name, was, earlier, is);
     return {};
 }
 
@@ -128,18 +129,18 @@ std::vector<ComparedFigure> figures(const ProfileReport& before, const ProfileRe
 
 }  // namespace
 
-std::string difference_of_work(const ProfileReport& before, const ProfileReport& now) {
+std::string difference_of_work(const ProfileReport& before, const ProfileReport& now, std::string_view name) {
     if (before.scene != now.scene)
-        return fmt::format("the baseline is of the scene '{}', not of '{}'", before.scene, now.scene);
+        return fmt::format("{} is of the scene '{}', not of '{}'", name, before.scene, now.scene);
     if (before.width != now.width || before.height != now.height)
-        return fmt::format("the baseline has {} x {} pixels, not {} x {}", before.width, before.height, now.width,
+        return fmt::format("{} has {} x {} pixels, not {} x {}", name, before.width, before.height, now.width,
                            now.height);
     if (before.max_depth != now.max_depth)
-        return fmt::format("paths of the baseline have up to {} edges, not {}", before.max_depth, now.max_depth);
+        return fmt::format("paths of {} have up to {} edges, not {}", name, before.max_depth, now.max_depth);
     if (before.bvh.instanced_triangles != now.bvh.instanced_triangles)
-        return fmt::format("the scene has changed: the baseline's has {} triangles, not {}",
+        return fmt::format("the scene has changed: that of {} has {} triangles, not {}", name,
                            before.bvh.instanced_triangles, now.bvh.instanced_triangles);
-    return difference_of_settings(before.settings, now.settings);
+    return difference_of_settings(before.settings, now.settings, name);
 }
 
 const char* verdict_name(ProfileVerdict verdict) {
@@ -189,6 +190,9 @@ ProfileComparison compare_profiles(const ProfileBaseline& before, const ProfileR
                 fmt::format("{} took {} samples per pixel before, {} now: times are compared "
                             "per sample",
                             run_name(run), earlier->spp, run.spp));
+        for (const ProfileRun* const one : {earlier, &run})
+            if (const std::string doubt = disagreement_of_repetitions(*one); !doubt.empty())
+                comparison.notes.push_back(one == earlier ? "before: " + doubt : doubt);
         if (comparison.runs.back().verdict == ProfileVerdict::NotKnown)
             comparison.notes.push_back(fmt::format(
                 "of {} nothing is concluded: that takes two repetitions or more on both sides", run_name(run)));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
@@ -72,7 +73,8 @@ struct ProfileComparison {
 
 /// Says in a sentence how the two profiles are of different work: scene, size, length of paths, triangles or another of
 /// the settings; empty if they are not.
-[[nodiscard]] std::string difference_of_work(const ProfileReport& before, const ProfileReport& now);
+[[nodiscard]] std::string difference_of_work(const ProfileReport& before, const ProfileReport& now,
+                                             std::string_view name = "the baseline");
 
 /// Why `compare_profiles` refuses the two, in a sentence; empty if it does not. Profiles that differ in scene, size,
 /// length of paths, triangles or another of the settings are refused, and those of which no run is in both, with two

@@ -149,6 +149,7 @@ Json to_object(const ProfileRun& run) {
             {"timing_share", run.timing_share},
             {"kinds", array_of(run.kinds)},
             {"stages", named(run.stages, "seconds")},
+            {"costs", costs(run)},
             {"advice", advice(run)},
             {"scene_hits", to_object(run.scene_hits)},
             {"endings", counted(run.eye_paths.endings, "paths")},

@@ -131,24 +131,27 @@ std::string hits(const SceneHitsReport& report) {
         std::string names;
         for (std::size_t i = 0; i < std::min(kNamesInTable, values.size()); ++i)
             names += fmt::format("{}{} {}", names.empty() ? "" : "; ", values[i].name,
-                                 human_percent(rate(values[i].value, sum_of(values))));
-        if (!names.empty()) text += wrapped(fmt::format("  hits by {}: {}", title, names), kIndent + 2);
+                                 rough_percent(rate(values[i].value, sum_of(values))));
+        if (!names.empty()) text += wrapped(fmt::format("  hits by {}, about: {}", title, names), kIndent + 2);
     };
     add("material", report.materials);
     add("object", report.objects);
     add("texture", report.textures);
+    if (report.lamps.size() < 2) return text;  // one has all of them
+    double shadow_rays = 0.0;
+    for (const LampReport& lamp : report.lamps) shadow_rays += lamp.shadow_rays;
     std::string lamps;
     for (std::size_t i = 0; i < std::min(kNamesInTable, report.lamps.size()); ++i)
-        lamps += fmt::format("{}{} {}, {} blocked", lamps.empty() ? "" : "; ", report.lamps[i].name,
-                             human_count(report.lamps[i].shadow_rays),
-                             human_percent(rate(report.lamps[i].blocked, report.lamps[i].shadow_rays)));
-    return text + (lamps.empty() ? "" : wrapped("  shadow rays by lamp: " + lamps, kIndent + 2));
+        lamps += fmt::format("{}{} {}, {} of these blocked", lamps.empty() ? "" : "; ", report.lamps[i].name,
+                             rough_percent(rate(report.lamps[i].shadow_rays, shadow_rays)),
+                             rough_percent(rate(report.lamps[i].blocked, report.lamps[i].shadow_rays)));
+    return text + wrapped("  shadow rays by lamp, about: " + lamps, kIndent + 2);
 }
 
-std::string advice_text(const ProfileRun& run) {
+std::string listed(const char* title, const std::vector<std::string>& sentences) {
     std::string text;
-    for (const std::string& sentence : advice(run)) text += wrapped("  * " + sentence, kIndent + 2);
-    return text.empty() ? text : "  what to change:\n" + text;
+    for (const std::string& sentence : sentences) text += wrapped("  * " + sentence, kIndent + 2);
+    return text.empty() ? text : fmt::format("  {}:\n{}", title, text);
 }
 
 std::string run_text(const ProfileRun& run) {
@@ -156,7 +159,7 @@ std::string run_text(const ProfileRun& run) {
     if (!run.kinds.empty()) text += rays(run) + '\n';
     if (!run.stages.empty()) text += stages(run) + '\n';
     return text + shares(run) + '\n' + paths(run) + expensive_tiles(run) + hits(run.scene_hits) + hardware(run) +
-           advice_text(run);
+           listed("what takes the time", costs(run)) + listed("what to change", advice(run));
 }
 
 std::string phases(const ProfileReport& report) {

@@ -213,30 +213,70 @@ TEST(ProfileTrace, HasWaitsWhereAThreadHasNoTile) {
     EXPECT_EQ((*wait)["dur"], 1e6);
 }
 
-std::string advice_of(const ProfileRun& run) {
+std::string lines_of(const std::vector<std::string>& sentences) {
     std::string text;
-    for (const std::string& sentence : advice(run)) text += sentence + "\n";
+    for (const std::string& sentence : sentences) text += sentence + "\n";
     return text;
+}
+
+std::string advice_of(const ProfileRun& run) {
+    return lines_of(advice(run));
+}
+
+std::string costs_of(const ProfileRun& run) {
+    return lines_of(costs(run));
 }
 
 TEST(ProfileAdvice, SaysWhatTakesTheTimeAndWhatWouldChangeIt) {
     ProfileRun run = made_up_profile().runs[0];
     run.kinds[1].hit_share = 0.8;
-    EXPECT_NE(advice_of(run).find("shadow rays are 33.3% of the time; 80.0% of them are blocked, 75.0% of those on the "
-                                  "way to 'lamp'"),
-              std::string::npos)
-        << advice_of(run);
+    EXPECT_NE(
+        costs_of(run).find("shadow rays are 33.3% of the time; 80.0% of them are blocked, about 75% of those on the "
+                           "way to 'lamp'"),
+        std::string::npos)
+        << costs_of(run);
+    EXPECT_EQ(advice_of(run).find("of the time"), std::string::npos) << "nothing to change: " << advice_of(run);
     EXPECT_EQ(advice_of(run).find("--light-samples"), std::string::npos) << "there is one already";
     run.light_samples = 4;
     run.light_sampling_used = 0.5;
-    // Of 10000 samples three of four at 750 points; shadow rays and the choice of lights are a third of the time.
-    EXPECT_NE(advice_of(run).find("--light-samples 1 in place of 4 saves about 7.5%"), std::string::npos)
-        << advice_of(run);
-    run.kinds[0].packet_fill = 0.31;
-    EXPECT_NE(advice_of(run).find("camera rays are 16.7% of the time; their packets are 31.0% full\n"),
+    // Of 10000 samples three of four at 750 points, 22.5%; half of the samples have shadow rays, 5000 of 6000 rays.
+    EXPECT_NE(advice_of(run).find("--light-samples 1 in place of 4 leaves out about 19% of the rays"),
               std::string::npos)
         << advice_of(run);
+    for (RayKindReport& kind : run.kinds) kind.seconds *= 0.8;
+    EXPECT_NE(advice_of(run).find("about 19% of the rays"), std::string::npos) << "whatever they took";
+    run.kinds[0].seconds = 0.5;
+    run.kinds[0].packet_fill = 0.31;
+    EXPECT_NE(costs_of(run).find("camera rays are 16.7% of the time; their packets are 31.0% full\n"),
+              std::string::npos)
+        << costs_of(run);
+    EXPECT_EQ(advice_of(run).find("--spp"), std::string::npos) << "they are as full as they get";
+    run.spp = 4;
+    EXPECT_NE(advice_of(run).find("--spp 16 or more fills the packets of camera rays"), std::string::npos)
+        << advice_of(run);
     EXPECT_TRUE(advice(ProfileRun{}).empty());
+    EXPECT_TRUE(costs(ProfileRun{}).empty());
+}
+
+TEST(ProfileAdvice, CountsTheRaysOfLongPaths) {
+    ProfileRun run = made_up_profile().runs[0];
+    run.kinds.push_back({.kind = "bounce", .rays = 900});
+    // Of 600 · 1 + 300 · 2 + 50 · 6 rays, two each of the last 50 paths.
+    run.eye_paths.lengths = {0, 600, 300, 0, 0, 0, 50};
+    EXPECT_NE(
+        advice_of(run).find("6.7% of the rays of eye paths lie beyond their ray number 4: --max-depth 4 leaves out"),
+        std::string::npos)
+        << advice_of(run);
+}
+
+TEST(ProfileTable, SharesShadowRaysOutToSeveralLamps) {
+    ProfileReport report = made_up_profile();
+    EXPECT_NE(to_table(report).find("shadow rays by lamp, about: lamp 80%, 75% of these blocked"), std::string::npos)
+        << to_table(report);
+    for (ProfileRun& run : report.runs) run.scene_hits.lamps.resize(1);
+    EXPECT_EQ(to_table(report).find("shadow rays by lamp"), std::string::npos) << "one has them all";
+    EXPECT_NE(to_table(report).find("hits by material, about: red 90%; green 10%"), std::string::npos)
+        << to_table(report);
 }
 
 TEST(ProfileAdvice, TellsWaitingFromWhatOthersTook) {
