@@ -30,8 +30,10 @@ std::unique_ptr<CLI::App> make_command_line(Action& action) {
                           fmt::format("{} ({})", software_name(), instruction_set_name(ray_code().instruction_set)));
     app->require_subcommand(1);
     app->footer(
-        "Exit codes: 0 success, 1 rendering failed for at least one scene or images differ too much, 2 usage error,\n"
-        "3 invalid scene, settings or images, 4 submitted images are not ready yet, 130/143 interrupted.\n\n"
+        "Exit codes: 0 success, 1 rendering failed for at least one scene, images differ too much, or a run is slower "
+        "than\n"
+        "that of --against, 2 usage error, 3 invalid scene, settings or images, 4 submitted images are not ready yet, "
+        "130/143 interrupted.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box\n"
         "  etendue batch scenes --quality draft -o out\n"

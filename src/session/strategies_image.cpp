@@ -112,8 +112,9 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
     const PathLengths& lengths = one.lengths;
     const int longest = longest_shown(request, lengths);
     if (longest < lengths.max_depth && !quiet)
-        log_warning("note: {} shows the strategies of paths of up to {} edges, of {}; --strategies-depth shows more",
-                    request.output.string(), longest, lengths.max_depth);
+        log_warning(
+            "note: {} shows the strategies of paths of up to {} edges, of {}; a larger --strategies-depth shows more",
+            request.output.string(), longest, lengths.max_depth);
     ProgressDisplay display(title + " strategies", quiet);
     std::vector<Strategy> wanted = shown_strategies(request, lengths);
     if (find_integrator(one.type)->merges) wanted.push_back(kMerges);
