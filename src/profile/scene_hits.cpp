@@ -46,7 +46,10 @@ class HitCounter {
   public:
     HitCounter(const World& world, const SceneHitNames& names) : world_(world), names_(names) {
         for (std::uint32_t light = 0; light < world.lights().count(); ++light)
-            lit_instances_.insert(world.lights().emitter(light).instance);
+            if (const std::uint32_t instance = world.lights().emitter(light).instance; instance != kNone)
+                lit_instances_.insert(instance);
+            else if (!world.lights().is_at_infinity(light))
+                has_points_ = true;
     }
 
     void add_nearest(const std::vector<Ray>& rays, double weight) {
@@ -70,7 +73,7 @@ class HitCounter {
         world_.geometry().intersect(ends_, hits_, Coherence::Incoherent);
         world_.geometry().occluded(rays, blocked_);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const std::string* const name = lamp_at(hits_[i]);
+            const std::string* const name = lamp_of(rays[i], hits_[i]);
             if (name == nullptr) continue;
             LampReport& lamp = lamps_[*name];
             lamp.shadow_rays += weight;
@@ -89,18 +92,19 @@ class HitCounter {
     }
 
   private:
-    /// Returns the name of the lamp at which a shadow ray ends that meets `hit` there; null if it cannot be told, as
-    /// where a ray grazes the lamp and meets the wall behind.
-    [[nodiscard]] const std::string* lamp_at(const Hit& hit) const {
+    /// Returns the name of the lamp that `ray` went to, which meets `end` there; null if it cannot be told, as where it
+    /// grazes the lamp and meets the wall behind.
+    [[nodiscard]] const std::string* lamp_of(const Ray& ray, const Hit& end) const {
         static const std::string kNoSurface = "lights without a surface";
-        if (hit.valid() && lit_instances_.contains(hit.instance)) return &names_.objects[hit.instance];
-        if (lit_instances_.contains(kNone)) return &kNoSurface;
+        if (end.valid() && lit_instances_.contains(end.instance)) return &names_.objects[end.instance];
+        if (has_points_ || !std::isfinite(ray.t_max)) return &kNoSurface;
         return lit_instances_.size() == 1 ? &names_.objects[*lit_instances_.begin()] : nullptr;
     }
 
     const World& world_;
     const SceneHitNames& names_;
-    std::set<std::uint32_t> lit_instances_;  ///< with a light on them; kNone if there are lights without a surface
+    std::set<std::uint32_t> lit_instances_;  ///< with a light on them
+    bool has_points_ = false;                ///< there are lights without a surface that are not infinitely far away
     std::vector<Hit> hits_;
     std::vector<Ray> ends_;
     std::vector<std::uint8_t> blocked_;

@@ -85,7 +85,8 @@ function showAccelerators() {
     kinds.length > 0 ? plot(acceleratorPlot(measures, kinds),
       legend(names.map((name, i) => ({ name, fill: acceleratorFill(i) })))) : null,
     element("p", { class: "hint" }, `All trace the same rays of the integrators, one after the other, Embree too: of each kind
-      as many as the slowest can in half a second. Ties are rays that met another triangle than in Embree, as far away but for rounding.`),
+      as many as the slowest can in half a second. Ties are rays that met another triangle than in Embree, as far away but
+      for rounding.`),
     table(["", "rays", "traced", "rays/s", "nodes/ray", "triangles/ray", "ties", "differ"], measures.flatMap((m) =>
       m.kinds.map((k) => [m.name, k.kind, formatCount(k.rays), formatRate(k.rays_per_second), visits(k.nodes_per_ray),
         visits(k.triangles_per_ray), format(k.ties), k.differ > 0 ? [format(k.differ), "alarm"] : format(k.differ)]))));

@@ -93,7 +93,7 @@ class Adviser {
                 text += fmt::format("; their packets are {} full", human_percent(kind.packet_fill));
                 if (run_.spp < 16)
                     add(changes_, share, kMuchTime,
-                        fmt::format("--spp 16 or more fills the packets of {} rays", kind.kind));
+                        fmt::format("--spp 16 or more makes the packets of {} rays fuller", kind.kind));
             }
             add(costs_, share, kMuchTime, text);
         }
@@ -208,11 +208,9 @@ std::string busy_machine(const ProfileRun& run) {
     const double taken = thread_time(run).taken;
     if (!(taken > kMostTaken)) return "";
     return fmt::format(
-        "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times, bare Embree's rates "
-        "and "
-        "efficiency hold but for what others take of the caches; seconds of stages, rays per second of the renderer "
-        "and "
-        "all else by the clock do not",
+        "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times, bare Embree's "
+        "rates and efficiency hold but for what others take of the caches; seconds of stages, rays per second of the "
+        "renderer and all else by the clock do not",
         run.integrator, run.threads, human_percent(taken));
 }
 

@@ -120,6 +120,16 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     for (const float value : heat.pixels.pixels) EXPECT_GT(value, 0.0f);
 }
 
+TEST_F(Profile, NamesOnlyLampsThatThereAre) {
+    write_scene(folder_ / "box", R"("lights": {"panel": {"type": "rectangle", "width": 0.5, "height": 0.5, "power": 10,
+        "position": [0, 0.5, -1], "look_at": [0, 0, -2]}},)");
+    ASSERT_EQ(profile({"--integrators", "path", "--threads", "1", "--spp", "16", "--repeat", "1", "--quiet"}).exit_code,
+              0);
+    const json hits = report()["runs"][0]["scene_hits"];
+    ASSERT_EQ(hits["lamps"].size(), 1u) << hits;
+    EXPECT_EQ(hits["lamps"][0]["name"], "panel");
+}
+
 // What a stamp takes is measured in the same process, so a busy machine lengthens both sides; where it does not
 // lengthen them alike, another try tells.
 TEST_F(Profile, TimeStampsTakeLessThanAHundredth) {

@@ -252,7 +252,7 @@ TEST(ProfileAdvice, SaysWhatTakesTheTimeAndWhatWouldChangeIt) {
         << costs_of(run);
     EXPECT_EQ(advice_of(run).find("--spp"), std::string::npos) << "they are as full as they get";
     run.spp = 4;
-    EXPECT_NE(advice_of(run).find("--spp 16 or more fills the packets of camera rays"), std::string::npos)
+    EXPECT_NE(advice_of(run).find("--spp 16 or more makes the packets of camera rays fuller"), std::string::npos)
         << advice_of(run);
     EXPECT_TRUE(advice(ProfileRun{}).empty());
     EXPECT_TRUE(costs(ProfileRun{}).empty());
