@@ -87,7 +87,7 @@ PrintedIntervals compare_laws(Law law, int seeds, std::uint32_t salt) {
 TEST(HeavyTail, LeavesIntervalsThatHold95Percent) {
     for (const int seeds : {4, 8}) {
         const PrintedIntervals narrow = compare_laws(std::lognormal_distribution<double>(0.0, 0.1), seeds, 1);
-        EXPECT_EQ(narrow.printed, 1.0) << seeds << " seeds";
+        EXPECT_GT(narrow.printed, 0.999) << seeds << " seeds";
         EXPECT_LT(narrow.wrong, 0.07) << seeds << " seeds";
         const PrintedIntervals wide = compare_laws(std::lognormal_distribution<double>(0.0, 0.3), seeds, 2);
         EXPECT_GT(wide.printed, 0.85) << seeds << " seeds";
