@@ -11,6 +11,7 @@
 #include "session/usage_error.h"
 
 #include <algorithm>
+#include <cctype>
 #include <array>
 #include <cstddef>
 #include <exception>
@@ -24,7 +25,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
-#include <strings.h>
 
 namespace etendue {
 
@@ -129,7 +129,8 @@ struct ScenePart {
 
 /// Returns " camera front", or " Camera.001" if the name says itself what it is the name of.
 std::string labelled(const std::string& what, const std::string& name) {
-    const bool says_itself = ::strncasecmp(name.c_str(), what.c_str(), what.size()) == 0;
+    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    const bool says_itself = std::ranges::equal(name.substr(0, what.size()), what, {}, lower, lower);
     return says_itself ? " " + name : fmt::format(" {} {}", what, name);
 }
 
