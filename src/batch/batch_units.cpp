@@ -11,8 +11,8 @@
 #include "session/usage_error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <exception>
 #include <map>

@@ -27,7 +27,7 @@ void print(const VariantReport& variant) {
     log_info("{}, {:.2f} Msamples per CPU s", line, variant.samples_per_cpu_second * 1e-6);
 }
 
-std::string text_of(const RatioInterval& interval, const std::string& why_none) {
+std::string text_of_ratio(const RatioInterval& interval, const std::string& why_none) {
     if (!why_none.empty()) return fmt::format("{:.3g} (no interval: {})", interval.ratio, why_none);
     if (!std::isfinite(interval.low)) return fmt::format("{:.3g}", interval.ratio);
     return fmt::format("{:.3g} ({:.0f}%: {:.3g} to {:.3g})", interval.ratio, 100.0 * kRatioConfidence, interval.low,
@@ -43,7 +43,7 @@ void print(const PairReport& pair) {
             ratio != pair.ratios.end() && std::isfinite(ratio->second.ratio)) {
             const auto why = pair.no_interval.find(key);
             log_info("{} of {} over that of {}: {}", title, pair.a, pair.b,
-                     text_of(ratio->second, why == pair.no_interval.end() ? "" : why->second));
+                     text_of_ratio(ratio->second, why == pair.no_interval.end() ? "" : why->second));
         }
     if (!pair.not_tested.empty())
         log_info("{} and {} are not tested: {}", pair.a, pair.b, pair.not_tested);
