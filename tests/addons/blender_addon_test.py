@@ -528,16 +528,16 @@ class Identity(unittest.TestCase):
 
 
 class Lost(unittest.TestCase):
-    def found(self, *items, surfaces=(), instanced=(), scattered=(), background=None, in_file=(), brought=(), override=None):
+    def found(self, *items, surfaces=(), instanced=(), scattered=(), background=None, brought=()):
         document = {"nodes": [{} for _ in items]}
         tree = identity.tree_of(document["nodes"], list(items))
         scene = fake.SimpleNamespace(objects=items, background_set=background)
         evaluated = {item: item for item in (*items, *dict(surfaces))}
         rendered = fake.SimpleNamespace(single=set(items), items=evaluated, instanced=dict(instanced), scattered=scattered)
-        return overlooked.lost(scene, document, tree, rendered, dict(surfaces), in_file, brought, override)
+        return overlooked.lost(scene, document, tree, rendered, dict(surfaces), brought)
 
-    def surface(self, has_faces=True, materials=()):
-        return fake.SimpleNamespace(has_faces=has_faces, materials=set(materials))
+    def surface(self, has_faces=True):
+        return fake.SimpleNamespace(has_faces=has_faces)
 
     def test_what_has_nothing_in_the_file_is_told_of_once(self):
         ball, wire, drop = fake.Block("Ball"), fake.Block("Wire"), fake.Block("Drop", type="META")
@@ -558,13 +558,6 @@ class Lost(unittest.TestCase):
         self.assertEqual(self.found(ball, scattered=[new(instancer=ball, source=None), new(instancer=ball, source=None),
                                                      new(instancer=curve, source=ball)]),
                          ["instances of meshes that geometry nodes make are not brought over: 'Ball'"])
-
-    def test_materials_of_geometry_nodes(self):
-        grid, paint = fake.Block("Grid", modifiers=[fake.SimpleNamespace(type="NODES")]), fake.Block("P")
-        painted = {grid: self.surface(False, [paint])}
-        self.assertEqual(self.found(grid, surfaces=painted), ["materials that geometry nodes set are not brought over: 'Grid'"])
-        self.assertEqual(self.found(grid, surfaces=painted, in_file=[paint]), [])
-        self.assertEqual(self.found(grid, surfaces=painted, override=paint), [])
 
 
 class Passes(unittest.TestCase):

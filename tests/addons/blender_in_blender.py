@@ -276,6 +276,13 @@ def artists(folder, program):
     group.links.new(start, setter.inputs["Geometry"])
     group.links.new(setter.outputs[0], end)
     add("Node", mesh("Node", material("Before"))).modifiers.new("Set", "NODES").node_group = group
+    # A mesh of geometry nodes' own, with one material, in place of one with another.
+    group, _, end = geometry("Made")
+    setter = group.nodes.new("GeometryNodeSetMaterial")
+    setter.inputs["Material"].default_value = material("Only")
+    group.links.new(group.nodes.new("GeometryNodeMeshCube").outputs[0], setter.inputs["Geometry"])
+    group.links.new(setter.outputs[0], end)
+    add("Made", mesh("Made", bpy.data.materials["Before"])).modifiers.new("Made", "NODES").node_group = group
     # Instances of geometry nodes: of an object, of an object's mesh, and of a mesh of the nodes' own.
     pine = add("Pine", mesh("Pine"), collection=collection("Trees", True), location=(7.0, 0.0, 0.0))
     for name, as_instance in (("Whole", True), ("Mesh", False), ("Own", None)):

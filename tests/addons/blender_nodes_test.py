@@ -487,6 +487,19 @@ class Document(unittest.TestCase):
                          {"texCoord": 1, "extensions": {glb_materials.TRANSFORM: transform}, "index": 0})
         self.assertEqual((document["samplers"], document["extensionsUsed"]), ([{"wrapS": 33071}], [glb_materials.TRANSFORM]))
 
+    def test_parts_have_the_materials_that_they_are_rendered_with(self):
+        """The exporter takes the slots of the object, whatever its modifiers have made of them."""
+        document, a, b = self.document(), fake.Block("A"), fake.Block("B")
+        document["nodes"].append({"mesh": 1})
+        self.assertEqual(glb_materials.give_parts(document, {0: [a, b], 1: [b], 2: [None]}, [a, b]), [])
+        self.assertEqual([node["mesh"] for node in document["nodes"]], [0, 1, 2])
+        self.assertEqual(document["meshes"][2], {"primitives": [{}]})
+        self.assertEqual(glb_materials.give_parts(document, {0: [b, a], 1: [a], 2: [a]}, [a, b]), [])
+        found = [[part.get("material") for part in document["meshes"][node["mesh"]]["primitives"]] for node in document["nodes"]]
+        self.assertEqual(found, [[1, 0], [0], [0]])
+        # Without the material, or with other parts, nothing changes.
+        self.assertEqual(glb_materials.give_parts(document, {0: [a], 1: [fake.Block("C")]}, [a, b]), [0, 1])
+
     def test_fog_that_is_not_read_is_left_out(self):
         document, _ = self.mend(left_out={"B"})
         self.assertEqual((document["meshes"][0]["primitives"], document["nodes"]), ([{"material": 0}], [{"mesh": 0}, {}]))

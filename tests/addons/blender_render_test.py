@@ -289,8 +289,8 @@ class Export(InBlender):
         places = found["places"]
         self.assertEqual([places[name] for name in ("Base", "Top", "Box", "Box [library.blend]")], [2, 2, 1, 1])
         self.assertEqual(found["blue"], ["Paint [library.blend]"])
-        self.assertEqual([found["material of"][name] for name in ("Box", "Box [library.blend]", "Node")],
-                         ["Paint", "Paint [library.blend]", "Set"])
+        self.assertEqual([found["material of"][name] for name in ("Box", "Box [library.blend]", "Node", "Made")],
+                         ["Paint", "Paint [library.blend]", "Set", "Only"])
         self.assertEqual([found["indices"]["object_id"][name] for name in ("Box", "Box [library.blend]")], [3, 7])
         # Three cubes each; eight rows of a ring for each of its four points, with a section of four sides.
         self.assertEqual(found["triangles"], {"Monitor": 36, "Eye": 36, "Within": 36, "Ring": 256})

@@ -19,7 +19,7 @@ from .images import image_bytes
 from .placement import Y_UP, columns, is_sheared, world_matrices
 from .program import known_part
 from .rendered import Rendered, rendered_objects
-from .surfaces import materials_of, surfaces_of
+from .surfaces import Surface, materials_of, surfaces_of
 from .written import Written
 
 
@@ -160,8 +160,17 @@ def own_materials(document: dict[str, Any], written: Written, rendered: Rendered
             | change_materials(document, written, hidden, "hidden from the camera", {"visible_to_camera": False}))
 
 
+def give_parts(gltf: Gltf, written: Written, surfaces: dict[Any, Surface]) -> None:
+    """Gives the parts of meshes the materials that they are rendered with, where modifiers set others than the exporter
+    has."""
+    objects, nodes = gltf.tree.objects, gltf.document.get("nodes", [])
+    parts = {number: surfaces[item].parts for number, item in enumerate(objects) if item in surfaces and "mesh" in nodes[number]}
+    failed = [objects[number] for number in glb_materials.give_parts(gltf.document, parts, gltf.materials)]
+    written.notes += overlooked.said("materials that modifiers set are not brought over", failed)
+
+
 def mend_surfaces(gltf: Gltf, written: Written, override: Any, names: dict[Any, str]) -> None:
-    """Gives surfaces the materials and the vertex colours that they are rendered with."""
+    """Gives surfaces the vertex colours that they are rendered with, and the material that overrides theirs, if any."""
     document = gltf.document
     if override is not None:
         glb_materials.override(document, names[override])
@@ -222,8 +231,10 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     written.notes += gltf.notes
     if is_sheared(camera.matrix_world):
         written.note(f"camera '{camera.name}': that it is sheared by what it hangs below is not brought over")
+    if override is None:
+        give_parts(gltf, written, surfaces)
     brought = mend_nodes(gltf, rendered, camera, evaluated.render, written.document.get("lights", {}), names)
-    written.notes += overlooked.lost(scene, document, gltf.tree, rendered, surfaces, gltf.materials, brought, override)
+    written.notes += overlooked.lost(scene, document, gltf.tree, rendered, surfaces, brought)
     written.notes += overlooked.notes(rendered.items.values(), view_layer)
     mend_surfaces(gltf, written, override, names)
     uv_set = uv_sets(rendered.items.values(), names, override, written)

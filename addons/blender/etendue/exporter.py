@@ -13,7 +13,8 @@ from typing import Any
 import bpy
 
 from . import glb, vertex_colors
-from .identity import Tree, numbered, take_blocks, tree_of, uses_nodes
+from .identity import Tree, numbered, take_blocks, tree_of
+from .overlooked import SURFACES
 from .placement import find_motions, has_motion_blur, straighten
 from .viewport import as_rendered, changed, keyed, kept
 
@@ -58,25 +59,40 @@ def on_main_thread(function: Callable[[], Any], is_stopped: Callable[[], bool]) 
     return outcome["result"]
 
 
+def foreign_materials(depsgraph: Any) -> list[Any]:
+    """Returns the materials of what modifiers give other materials than the object has itself, each once."""
+    found: dict[Any, None] = {}
+    items: dict[Any, None] = {}
+    for instance in depsgraph.object_instances:
+        item = instance.instance_object if instance.is_instance else instance.object
+        items |= {item.original: None} if item is not None and item.type in SURFACES else {}
+    for item in items:
+        theirs = [slot.material and slot.material.original for slot in item.evaluated_get(depsgraph).material_slots]
+        if theirs != [slot.material for slot in item.material_slots]:
+            found |= dict.fromkeys(theirs)
+    return [material for material in found if material is not None]
+
+
 @contextmanager
-def slots_for_set_materials(view_layer: Any) -> Iterator[None]:
-    """Adds the materials that geometry nodes set to the slots of objects, from which the exporter takes them, while this
-    lasts."""
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    added = []
+def carried(materials: list[Any], scene: Any) -> Iterator[None]:
+    """Adds an object with these materials to the scene while this lasts: the exporter takes materials from the slots of
+    objects alone, not from what modifiers make. The object has no number, so that it is not rendered."""
+    if not materials:
+        yield
+        return
+    mesh = bpy.data.meshes.new("carrier")
+    item = bpy.data.objects.new("carrier", mesh)
     try:
-        for item in view_layer.objects:
-            if item.type != "MESH" or not uses_nodes(item):
-                continue
-            here = list(item.data.materials)
-            there = [material and material.original for material in item.evaluated_get(depsgraph).data.materials]
-            for material in there[len(here):] if there[:len(here)] == here else []:
-                item.data.materials.append(material)
-                added.append(item.data)
+        corners = range(3 * len(materials))
+        mesh.from_pydata([(number, number % 2, 0.0) for number in corners], [], [corners[at:at + 3] for at in corners[::3]])
+        for number, material in enumerate(materials):
+            mesh.materials.append(material)
+            mesh.polygons[number].material_index = number
+        scene.collection.objects.link(item)
         yield
     finally:
-        for mesh in reversed(added):
-            mesh.materials.pop(index=len(mesh.materials) - 1)
+        bpy.data.objects.remove(item)
+        bpy.data.meshes.remove(mesh)
 
 
 @contextmanager
@@ -188,7 +204,8 @@ def read_gltf(scene: Any, view_layer: Any, path: Path) -> Gltf:
     with context_of(scene, view_layer), kept(keyed(owners)), as_rendered(scene, view_layer, bpy.data):
         with first_tiles(bpy.data.images, trees, notes), changed(vertex_colors.choices(bpy.data.meshes)):
             scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
-            with slots_for_set_materials(view_layer), numbered(objects), numbered(materials):
+            foreign = foreign_materials(bpy.context.evaluated_depsgraph_get())
+            with carried(foreign, scene), numbered(objects), numbered(materials):
                 write_gltf(path)
         document, binary = glb.read_glb(path)
         nodes = document.get("nodes", [])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from .written import Document, Texture, Written
@@ -38,6 +38,30 @@ def override(document: Document, name: str) -> None:
     for mesh in document.get("meshes", []):
         for primitive in mesh["primitives"]:
             primitive["material"] = number
+
+
+def give_parts(document: Document, parts: Mapping[int, Sequence[Any]], materials: Sequence[Any]) -> list[int]:
+    """Gives the primitives of the meshes of nodes, by their numbers, the materials that they are rendered with, None for
+    none. `materials` are those of the file. Returns the nodes where that is not possible."""
+    failed, copies = [], {}
+    for number, wanted in parts.items():
+        node = document["nodes"][number]
+        mesh = document["meshes"][node["mesh"]]
+        given = [materials[primitive["material"]] if "material" in primitive else None for primitive in mesh["primitives"]]
+        if given == list(wanted):
+            continue
+        if len(given) != len(wanted) or any(part is not None and part not in materials for part in wanted):
+            failed.append(number)
+            continue
+        key = (node["mesh"], *(None if part is None else materials.index(part) for part in wanted))
+        if key not in copies:
+            own = copy.deepcopy(mesh)
+            for primitive, part in zip(own["primitives"], key[1:]):
+                primitive.pop("material", None)
+                primitive |= {} if part is None else {"material": part}
+            copies[key] = add(document, "meshes", own)
+        node["mesh"] = copies[key]
+    return failed
 
 
 def leave_out(document: Document, names: Collection[str]) -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
-from .identity import Tree, uses_nodes
+from .identity import Tree
 from .lamps import is_portal
 from .written import Document
 
@@ -39,10 +39,10 @@ def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
             *(note for test, text in tests for note in said(text, filter(test, items)))]
 
 
-def lost(scene: Any, document: Document, tree: Tree, rendered: Any, surfaces: Mapping[Any, Any], in_file: Collection[Any],
-         brought: Collection[tuple[Any, Any]], override: Any = None) -> list[str]:
-    """Says what is rendered and has nothing in the file. `in_file` are the materials of the file, unless one overrides them;
-    `brought` are its pairs of an instancer and what it instances."""
+def lost(scene: Any, document: Document, tree: Tree, rendered: Any, surfaces: Mapping[Any, Any],
+         brought: Collection[tuple[Any, Any]]) -> list[str]:
+    """Says what is rendered and has nothing in the file. `brought` are the file's pairs of an instancer and what it
+    instances."""
     own = {item: document["nodes"][number] for number, item in tree.own().items()}
 
     def shows(item: Any) -> bool:
@@ -50,8 +50,6 @@ def lost(scene: Any, document: Document, tree: Tree, rendered: Any, surfaces: Ma
 
     missing = [item for item in rendered.single & set(scene.objects)
                if shows(item) and (item not in own if item.type == "LIGHT" else "mesh" not in own.get(item, {}))]
-    painted = [original for original, surface in surfaces.items() if override is None
-               and uses_nodes(rendered.items[original]) and surface.materials - set(in_file)]
     # A curve is an instance of its own mesh, too.
     instances: dict[Any, list[Any]] = {}
     for instancer, item in rendered.instanced:
@@ -59,7 +57,6 @@ def lost(scene: Any, document: Document, tree: Tree, rendered: Any, surfaces: Ma
             instances.setdefault(instancer, []).append(item)
     sets = [scene.background_set] if scene.background_set is not None else []
     return [*said("Blender's exporter leaves objects out", missing),
-            *said("materials that geometry nodes set are not brought over", painted),
             *said("instances of meshes that geometry nodes make are not brought over",
                   [instance.instancer for instance in rendered.scattered if instance.source is None]),
             *(note for instancer, items in instances.items()

@@ -39,11 +39,12 @@ def is_closed(mesh: Any) -> bool:
 
 @dataclass
 class Surface:
-    """What is asked about the mesh that an object is rendered as."""
+    """Says of the mesh that an object is rendered as whether it bounds a volume, whether it has faces, and which materials
+    they have, in the order of their slots: None for none."""
 
     closed: bool
     has_faces: bool
-    materials: set[Any]
+    parts: list[Any]
 
 
 def is_copy(mesh: Any, of: Any) -> bool:
@@ -60,6 +61,14 @@ def materials_in(mesh: Any) -> set[Any]:
     return {material.original for material in used if material is not None}
 
 
+def parts_of(item: Any, mesh: Any) -> list[Any]:
+    """Returns the material of each slot of the evaluated object that faces of its mesh have; beyond the last slot, it is
+    that of the last."""
+    slots = [slot.material and slot.material.original for slot in item.material_slots]
+    numbers = numpy.unique(numbers_of(mesh.polygons, "material_index", numpy.int32))
+    return [slots[min(int(number), len(slots) - 1)] if slots else None for number in numbers]
+
+
 def surfaces_of(items: dict[Any, Any]) -> dict[Any, Surface]:
     """Looks at the mesh of each object that has one, by its original."""
     found = {}
@@ -68,7 +77,7 @@ def surfaces_of(items: dict[Any, Any]) -> dict[Any, Surface]:
             continue
         mesh = item.data if item.type == "MESH" else item.to_mesh()
         if mesh is not None:
-            found[original] = Surface(is_closed(mesh), len(mesh.polygons) > 0, materials_in(mesh))
+            found[original] = Surface(is_closed(mesh), len(mesh.polygons) > 0, parts_of(item, mesh))
         if item.type != "MESH":
             item.to_mesh_clear()
     return found
