@@ -262,8 +262,9 @@ def artists(folder, program):
     # Vertex colours, one used and one not; a material that geometry nodes set; tiles.
     for name in ("Used", "Unused"):
         data = mesh(name, material(name))
-        for color, value in (("First", (1.0, 0.0, 0.0, 1.0)), ("Second", (0.0, 1.0, 0.0, 0.5))):
-            data.color_attributes.new(color, "FLOAT_COLOR", "CORNER").data.foreach_set("color", 24 * value)
+        for color, red, green, alpha in (("First", 1.0, 0.0, 1.0), ("Second", 0.0, 0.125, 0.5)):
+            values = [value for face in range(6) for _ in range(4) for value in (red, (1 + face) * green, 0.0, alpha)]
+            data.color_attributes.new(color, "FLOAT_COLOR", "CORNER").data.foreach_set("color", values)
         data.color_attributes.render_color_index = 0
         add(name, data)
     tree = bpy.data.materials["Used"].node_tree
@@ -381,7 +382,8 @@ def artists(folder, program):
     color = accessors[primitive("Used")["attributes"]["COLOR_0"]]
     begin = found.gltf["bufferViews"][color["bufferView"]].get("byteOffset", 0)
     binary = read_glb(folder / "scene/scene.glb")[1]
-    values = numpy.frombuffer(binary, {5123: numpy.uint16, 5126: numpy.float32}[color["componentType"]], 3, begin)
+    kind, largest = {5123: (numpy.uint16, 65535), 5126: (numpy.float32, 1)}[color["componentType"]]
+    values = numpy.frombuffer(binary, kind, 4 * color["count"], begin).reshape(-1, 4) / largest
     bpy.ops.mesh.primitive_plane_add()
     closed = {"plane": is_closed(bpy.context.object.data)}
     for name in ("Ring", "Text"):
@@ -400,7 +402,7 @@ def artists(folder, program):
         "triangles": {name: accessors[primitive(name)["indices"]]["count"] // 3 for name in ("Monitor", "Eye", "Within", "Ring")},
         "colors": {name: accessors[primitive(name)["attributes"]["COLOR_0"]]["type"] if "COLOR_0" in primitive(name)["attributes"]
                    else None for name in ("Used", "Unused")},
-        "green": [bool(value > 0) for value in values], "material of": {name: materials[primitive(name)["material"]] for name in numbers if name and meshes[name]},
+        "painted": sorted([round(8 * float(number), 3) for number in value[:3]] for value in values), "material of": {name: materials[primitive(name)["material"]] for name in numbers if name and meshes[name]},
         "blue": [entry["name"] for entry in found.gltf["materials"]
                  if entry.get("pbrMetallicRoughness", {}).get("baseColorFactor", [])[:3] == [0, 0, 1]],
         "lights": sorted(document["lights"]), "indices": found.indices, "notes": found.notes,

@@ -295,7 +295,8 @@ class Export(InBlender):
         # Three cubes each; eight rows of a ring for each of its four points, with a section of four sides.
         self.assertEqual(found["triangles"], {"Monitor": 36, "Eye": 36, "Within": 36, "Ring": 256})
         self.assertEqual(found["colors"], {"Used": "VEC3", "Unused": None})
-        self.assertEqual(found["green"], [False, True, False])
+        # Each of the six faces has a green of its own at its four corners.
+        self.assertEqual(found["painted"], [[0.0, 1.0 + face, 0.0] for face in range(6) for _ in range(4)])
         self.assertEqual(found["closed"], {"plane": False, "Ring": True, "Text": True})
         self.assertEqual(found["lights"], ["KidLamp", "POINT"])
         self.assertEqual(found["areas"], ["rectangle", "rectangle"])

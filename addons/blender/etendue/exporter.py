@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy
 
 from . import glb, vertex_colors
 from .identity import Tree, numbered, take_blocks, tree_of
@@ -93,6 +95,35 @@ def carried(materials: list[Any], scene: Any) -> Iterator[None]:
     finally:
         bpy.data.objects.remove(item)
         bpy.data.meshes.remove(mesh)
+
+
+@contextmanager
+def colors_of_corners() -> Iterator[None]:
+    """Has the exporter of Blender 3.4 give each corner of a face the colour that it has while this lasts: by itself, it
+    takes the number of the corner's vertex for that of the corner. Later exporters, which are right, have no such method."""
+    name = "_PrimitiveCreator__get_color_attribute"
+    try:
+        creator = importlib.import_module("io_scene_gltf2.blender.exp.gltf2_blender_gather_primitives_extract").PrimitiveCreator
+        original = getattr(creator, name)
+    except (ImportError, AttributeError):
+        yield
+        return
+
+    def get(self: Any, attribute: dict[str, Any]) -> None:
+        if attribute["blender_domain"] != "CORNER":
+            original(self, attribute)
+            return
+        colors = self.blender_mesh.color_attributes
+        values = numpy.empty(4 * len(self.blender_mesh.loops), numpy.float32)
+        colors[colors.render_color_index].data.foreach_get("color", values)
+        for channel in range(4):
+            self.dots[f"{attribute['gltf_attribute_name']}{channel}"] = values[channel::4]
+
+    setattr(creator, name, get)
+    try:
+        yield
+    finally:
+        setattr(creator, name, original)
 
 
 @contextmanager
@@ -205,7 +236,7 @@ def read_gltf(scene: Any, view_layer: Any, path: Path) -> Gltf:
         with first_tiles(bpy.data.images, trees, notes), changed(vertex_colors.choices(bpy.data.meshes)):
             scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
             foreign = foreign_materials(bpy.context.evaluated_depsgraph_get())
-            with carried(foreign, scene), numbered(objects), numbered(materials):
+            with carried(foreign, scene), colors_of_corners(), numbered(objects), numbered(materials):
                 write_gltf(path)
         document, binary = glb.read_glb(path)
         nodes = document.get("nodes", [])
