@@ -372,6 +372,11 @@ class Materials(unittest.TestCase):
         self.assertEqual((found["transmission"], found["roughness"], found["base_color"]), (1.0, 0.1, [0.8, 0.2, 0.1]))
         self.assertGreater(max(found["sheen_color"]), 0.1)
 
+    def test_without_specular_nothing_reflects_at_grazing_angles_either(self):
+        for specular, expected in ((0.0, {"specular": 0.0}), (value(0.0), {"specular": 0.0}), (0.25, {})):
+            self.assertEqual(self.material(fake.principled(Specular=specular))[0], expected)
+        self.assertNotIn("specular", self.material(fake.principled(Specular=0.0, Transmission=1.0))[0])
+
     def test_procedural_inputs_are_neither_white_nor_metal_nor_light(self):
         noise = fake.Node("TEX_NOISE", {"Scale": 5.0}, ("Color",))
         found, result = self.material(fake.principled(Base_Color=noise, Metallic=noise, Roughness=noise, Transmission=noise,

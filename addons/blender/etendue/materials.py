@@ -352,6 +352,10 @@ class Reader:
         elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", *VERTICES) is None:
             self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
             result["base_color"] = GREY
+        # Where the exporter has black for what reflects, glTF reflects white at grazing angles all the same. Of glass, Specular
+        # says nothing.
+        if shader.value("Specular", default=1.0) == 0.0 and shader.value(*TRANSMISSION, default=0.0) == 0.0:
+            result["specular"] = 0.0
         if "EMISSION" in self.exported:
             return result | self.glow(shader)
         # The exporter has white light where it cannot read the colour.
