@@ -377,6 +377,17 @@ class Materials(unittest.TestCase):
             self.assertEqual(self.material(fake.principled(Specular=specular))[0], expected)
         self.assertNotIn("specular", self.material(fake.principled(Specular=0.0, Transmission=1.0))[0])
 
+    def test_strengths_of_light_that_are_linked_are_constants_or_said(self):
+        image = fake.texture(fake.image())
+        for light, strength, expected, said in (
+                (RED, value(3.0), {"emission": {"color": [0.8, 0.2, 0.1], "strength": 3.0}}, 0),
+                (RED, image, {"emission": {"color": [0.8, 0.2, 0.1], "strength": 1.0}}, 1),
+                (image, value(3.0), {}, 0),
+                (image, fake.Node("MATH", {"Value": 3.0, "Value__2": 2.0}, operation="MULTIPLY"), {"emissive_strength": 6.0}, 0),
+                ((0.0, 0.0, 0.0, 1.0), value(3.0), {}, 0)):
+            found, result = self.material(fake.principled(Emission=light, Emission_Strength=strength))
+            self.assertEqual((found, len([text for text in result.notes if "linked to" in text])), (expected, said))
+
     def test_procedural_inputs_are_neither_white_nor_metal_nor_light(self):
         noise = fake.Node("TEX_NOISE", {"Scale": 5.0}, ("Color",))
         found, result = self.material(fake.principled(Base_Color=noise, Metallic=noise, Roughness=noise, Transmission=noise,

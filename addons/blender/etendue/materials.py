@@ -362,7 +362,18 @@ class Reader:
         if shader.value(*EMISSION, default=BLACK) is None and behind(shader.source(*EMISSION), "TEX_IMAGE") is None:
             self.note(f"the light of '{shader.name}' is not brought over")
             result["emission"] = {"color": BLACK}
+        elif shader.is_linked("Emission Strength") and shader.value(*EMISSION, default=BLACK) != BLACK:
+            result |= self.strength(shader)
         return result
+
+    def strength(self, shader: Seen) -> Document:
+        """The light of a shader that the exporter has seen, whose strength is linked to something: 1 where that is no constant,
+        as the exporter has it. With an image, it has the light itself, and the strength of a Value node."""
+        light, strength = shader.value(*EMISSION), max(self.number(shader, "Emission Strength", default=1.0), 0.0)
+        if light is None:
+            source = shader.source("Emission Strength")
+            return {} if source is not None and source.type == "VALUE" else {"emissive_strength": strength}
+        return {"emission": {"color": [max(channel, 0.0) for channel in light], "strength": strength}}
 
     def all_of(self, shader: Seen) -> Document:
         """All factors of a shader that the exporter has not seen, or of which it has another in its place."""
