@@ -234,6 +234,18 @@ class Materials(unittest.TestCase):
         other = fake.mix(fake.Node("TEX_NOISE"), transparent(), diffuse())
         self.assertIn("nothing is transparent", self.material(other)[1].notes[0])
 
+    def test_glass_that_is_partly_transparent_is_a_sheet(self):
+        glass = fake.Node("BSDF_GLASS", {"Color": RED, "Roughness": 0.0, "IOR": 1.45})
+        wax = {"Subsurface": 1.0, "Subsurface_Color": RED, "Subsurface_Radius": (1.0, 1.0, 1.0)}
+        for shader, key, there, said in (
+                (fake.mix(0.25, glass, transparent()), "solid", False, 1), (fake.mix(1.0, transparent(), glass), "solid", True, 0),
+                (fake.principled(Transmission=1.0, Alpha=0.5), "solid", False, 1),
+                (fake.principled(Transmission=1.0, Alpha=1.0), "solid", True, 0),
+                (fake.principled(Transmission=1.0, Alpha=0.9), "solid", True, 1),
+                (fake.principled(Alpha=0.5, **wax), "subsurface", True, 1)):
+            found, result = self.material(shader)
+            self.assertEqual((key in found, len(result.notes)), (there, said))
+
     def test_of_other_mixes_the_heavier_part_is_taken(self):
         found, result = self.material(fake.mix(0.75, diffuse(RED), diffuse()))
         self.assertEqual((found, len(result.notes)), ({"diffuse": {"albedo": [0.5] * 3}}, 1))

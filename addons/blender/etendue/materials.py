@@ -17,6 +17,7 @@ EMISSION = ("Emission Color", "Emission")
 # Names of factors, those of inputs, and values of the Principled BSDF.
 FACTORS = (("metallic", ("Metallic",), 0.0), ("roughness", ("Roughness",), 0.5), ("transmission", TRANSMISSION, 0.0))
 GLOSSY = ("BSDF_GLOSSY", "BSDF_ANISOTROPIC")
+BODY = 0.85  # coverage from which on a body without transparency is nearer to Cycles than a sheet with it
 
 
 def clamped(color: Any) -> list[float]:
@@ -144,11 +145,21 @@ class Reader:
         rest = sides[1 - clear]
         result = self.surface(rest)
         if share is not None:
-            self.cover(share if clear == 0 else 1.0 - share)
-            return result
+            coverage = share if clear == 0 else 1.0 - share
+            self.cover(coverage)
+            return self.thin(result, coverage)
         if clear == 0 and rest is not None and "diffuse" not in result and self.masks(mix.source(0), rest):
-            return result
+            return self.thin(result)
         self.note(f"what is linked to the factor of its node '{mix.name}' is not brought over: nothing is transparent")
+        return result
+
+    def thin(self, result: Document, coverage: float | None = None) -> Document:
+        """Makes a sheet of a body of this coverage, None for an image: the renderer does not look at the alpha of bodies."""
+        if "solid" in result and (coverage is None or coverage < BODY):
+            del result["solid"]
+            self.note("it is partly transparent, and shown as a thin sheet, which does not bend light")
+        elif ("solid" in result and coverage < 1.0) or "subsurface" in result:
+            self.note("it is a body, of which nothing is transparent")
         return result
 
     def masks(self, mask: Seen | None, shader: Seen) -> bool:
@@ -306,12 +317,12 @@ class Reader:
         self.cut_at_one(shader.source(*EMISSION))
         wax = self.subsurface(shader)
         if wax is not None:
-            return wax
+            return wax if alpha == 1.0 else self.thin(wax, alpha)
         result = self.unseen(shader) if taken else self.all_of(shader)
         transmission = result.get("transmission", shader.value(*TRANSMISSION, default=0.0))
         if transmission is None or transmission > 0.0:
             if self.closed:
-                result["solid"] = True
+                result = self.thin(result | {"solid": True}, alpha)
             ior = shader.value("IOR", default=1.45)
             if ior is not None:
                 result["ior"] = max(ior, 1.0)
