@@ -400,6 +400,15 @@ class Materials(unittest.TestCase):
             found, result = self.material(fake.principled(Emission=light, Emission_Strength=strength))
             self.assertEqual((found, len([text for text in result.notes if "linked to" in text])), (expected, said))
 
+    def test_what_comes_through_is_rougher_as_transmission_roughness_says(self):
+        for kind, transmission, rough, expected, said in (("GGX", 1.0, 0.2, 0.6, 0), ("MULTI_GGX", 1.0, 0.2, None, 0), ("GGX", 0.0, 0.2, None, 0),
+                                                          ("GGX", 0.5, 0.2, None, 1), ("GGX", 1.0, fake.texture(fake.image()), None, 1)):
+            shader = fake.principled(Transmission=transmission, Roughness=rough, Transmission_Roughness=0.5)
+            shader.distribution = kind
+            found, result = self.material(shader)
+            notes = [text for text in result.notes if "Transmission Roughness" in text]
+            self.assertEqual((found.get("roughness"), len(notes)), (expected, said))
+
     def test_procedural_inputs_are_neither_white_nor_metal_nor_light(self):
         noise = fake.Node("TEX_NOISE", {"Scale": 5.0}, ("Color",))
         found, result = self.material(fake.principled(Base_Color=noise, Metallic=noise, Roughness=noise, Transmission=noise,
@@ -474,6 +483,9 @@ class Volumes(unittest.TestCase):
         found = self.fog(self.absorption(), fake.principled(Transmission=1.0, IOR=1.45))[0]
         self.assertAlmostEqual(found["attenuation_distance"], 1.0)
         self.assertNotIn("attenuation_distance", self.fog(self.absorption(), fake.principled())[0])
+        for shader, closed, said in ((fake.principled(), True, 0), (fake.principled(Transmission=1.0), False, 1),
+                                     (fake.mix(0.5, transparent(), diffuse()), True, 1)):
+            self.assertEqual(len(self.fog(self.absorption(), shader, closed)[1].notes), said)
 
 
 class Document(unittest.TestCase):

@@ -330,6 +330,7 @@ class Reader:
             # Since Blender 4.0, light has the colour once it has passed two of its surfaces.
             if self.closed and transmission == 1.0 and color and shader.socket("Transmission Weight") is not None:
                 result["base_color"] = [math.sqrt(channel) for channel in clamped(color)]
+            result |= self.rough_inside(shader, transmission)
         if shader.socket("Clearcoat") is not None:
             coat = shader.value("Clearcoat")
             if coat is None or coat > 0.0:
@@ -347,6 +348,17 @@ class Reader:
         elif stretch > 0.0:
             result |= anisotropy(stretch, rough, shader.value("Anisotropic Rotation", default=0.0) or 0.0)
         return result
+
+    def rough_inside(self, shader: Seen, transmission: float | None) -> Document:
+        """The roughness with the Transmission Roughness of Blender before 4.0, which its GGX alone has."""
+        more = shader.value("Transmission Roughness", default=0.0)
+        if more == 0.0 or getattr(shader.node, "distribution", "") != "GGX":
+            return {}
+        rough = shader.value("Roughness", default=0.5)
+        if None in (more, rough) or transmission != 1.0:
+            self.note("Transmission Roughness is brought over where Transmission is 1, without textures")
+            return {}
+        return {"roughness": 1.0 - (1.0 - min(max(rough, 0.0), 1.0)) * (1.0 - min(max(more, 0.0), 1.0))}
 
     def unseen(self, shader: Seen) -> Document:
         """Factors that the exporter does not read of what it has seen: what is linked to constants."""
@@ -457,6 +469,8 @@ class Reader:
             if medium is not None:
                 return result | medium
             self.note(f"the volume '{volume.name}' is not brought over: only what is constant is")
+        elif result.get("transmission", float("ior" in result)) > 0.0 or self.name in self.written.blended:
+            self.note(f"the volume '{volume.name}' is not brought over: its surface bounds no body")
         return result
 
     def fog(self, volume: Seen) -> Document:
