@@ -13,7 +13,7 @@ from pathlib import Path
 
 import fake_blender as fake
 import skipped_tests
-from etendue import glb_materials, materials, nodes, overlooked, program, scene_settings, textures, vertex_colors, volumes
+from etendue import glb_materials, layers, materials, nodes, overlooked, program, scene_settings, textures, vertex_colors, volumes
 from etendue.written import Texture, Written
 
 try:
@@ -224,6 +224,19 @@ class Materials(unittest.TestCase):
         self.assertEqual(self.material(transparent())[1].alphas, {"M": 0.0})
         self.assertEqual(len(self.material(transparent(RED))[1].notes), 1)
 
+    def test_glossy_lobes_are_stretched_as_those_of_cycles(self):
+        def widths(found):
+            narrow, strength = found["roughness"] ** 2, found["anisotropy_strength"]
+            return narrow + (1.0 - narrow) * strength ** 2, narrow
+
+        for stretch, turn in ((0.5, 0.25), (-0.5, 0.0)):
+            inputs = {"Color": RED, "Roughness": 0.5, "Anisotropy": stretch, "Rotation": 0.125}
+            for kind in ("BSDF_ANISOTROPIC", "BSDF_GLOSSY"):
+                found = self.material(fake.Node(kind, inputs))[0]
+                for one, other in zip(widths(found), (0.5, 0.125)):
+                    self.assertAlmostEqual(one, other)
+                self.assertAlmostEqual(found["anisotropy_rotation"], 2.0 * math.pi * (turn + 0.125))
+
     def test_mixes_with_transparency_are_coverage(self):
         self.assertEqual(self.material(fake.mix(0.25, transparent(), diffuse()))[1].alphas, {"M": 0.25})
         self.assertEqual(self.material(fake.mix(0.25, diffuse(), transparent()))[1].alphas, {"M": 0.75})
@@ -377,6 +390,13 @@ class Materials(unittest.TestCase):
         mapped = fake.principled(Normal=fake.Node("NORMAL_MAP", {"Color": fake.texture(fake.image(space="Non-Color"))}))
         result = self.material(mapped)[1]
         self.assertEqual((result.unbumped, result.notes), (set(), []))
+        for space, strength, unbumped, said in (("TANGENT", 1.0, set(), 0), ("OBJECT", 1.0, {"M"}, 1),
+                                                ("TANGENT", fake.Node("TEX_NOISE"), set(), 2)):
+            image = fake.texture(fake.image(space="Non-Color"), fake.Node("UVMAP", outputs=("UV",), uv_map="Second"))
+            node = fake.Node("NORMAL_MAP", {"Color": image, "Strength": strength}, space=space, uv_map="Third")
+            result = self.material(fake.principled(Normal=node))[1]
+            self.assertEqual((result.unbumped, len(result.notes)), (unbumped, said))
+            self.assertEqual(result.tangents, {} if unbumped else {"M": ("Second", "Third")})
 
     def test_value_nodes_are_no_textures(self):
         reroute = fake.Node("REROUTE", {"Input": value(0.1)})
@@ -576,6 +596,35 @@ class Document(unittest.TestCase):
         self.assertEqual(struct.unpack_from(">II", found, 16), (2, 1))
         size, = struct.unpack_from(">I", found, 33)
         self.assertEqual(zlib.decompress(found[41:41 + size]), bytes([0, *range(8)]))
+
+
+class Layers(unittest.TestCase):
+    def item(self, name, material, uv_maps, colors=()):
+        new = fake.SimpleNamespace
+        maps = [new(name=uv_map, active_render=number == 0) for number, uv_map in enumerate(uv_maps)]
+        slot = new(material=new(original=material))
+        return fake.item(name, new(uv_layers=maps, color_attributes=[new(name=color) for color in colors]), "MESH", material_slots=[slot])
+
+    def notes(self, shader, *items):
+        result, material = Written(), fake.Block("M")
+        scene_settings.material(fake.material("M", shader), True, result)
+        meshes = layers.users([self.item(name, material, *has) for name, *has in items], {material: "M"}, None)
+        return [*layers.missing(meshes, result), *layers.tangents(result, layers.uv_sets(meshes, result))]
+
+    def test_what_a_mesh_lacks_is_said(self):
+        second = fake.texture(fake.image(), fake.Node("UVMAP", outputs=("UV",), uv_map="Second"))
+        items = (("A", ["First"]), ("B", ["First", "Second"]), ("C", []))
+        self.assertEqual(self.notes(diffuse(second), *items),
+                         ["material 'M': there is no UV map 'Second', and another is in its place: 'A', 'C'"])
+        self.assertEqual(self.notes(diffuse(fake.texture(fake.image())), *items), [])
+        paint = fake.Node("VERTEX_COLOR", outputs=("Color",), layer_name="Paint")
+        self.assertEqual(len(self.notes(diffuse(paint), ("A", [], ["Paint"]), ("B", [], ["Other"]))), 1)
+
+    def test_tangents_of_another_map_are_said(self):
+        for uv_map, said in (("", 0), ("First", 0), ("Second", 1)):
+            image = fake.texture(fake.image(space="Non-Color"))
+            node = fake.Node("NORMAL_MAP", {"Color": image, "Strength": 1.0}, space="TANGENT", uv_map=uv_map)
+            self.assertEqual(len(self.notes(fake.principled(Normal=node), ("A", ["First", "Second"]))), said)
 
 
 class Overlooked(unittest.TestCase):

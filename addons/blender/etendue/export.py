@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy
 
-from . import glb, glb_materials, overlooked, passes, scene_settings, textures, vertex_colors
+from . import glb, glb_materials, layers, overlooked, passes, scene_settings, textures, vertex_colors
 from .exporter import ExportError, Gltf, on_main_thread, read_gltf, sees_groups
 from .exr import write_exr
 from .identity import Tree, rendered_nodes, unique_names
@@ -69,22 +69,6 @@ def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> 
 
 def bytes_of(image: Any) -> tuple[bytes, str]:
     return image_bytes(image, Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None)
-
-
-def uv_sets(items: Iterable[Any], names: dict[Any, str], override: Any, written: Written) -> Callable[[str, str], int]:
-    """Returns a function that has the number of a UV map on the meshes that have a material, by their names; an empty name is
-    for the map that is rendered."""
-    layers = [({names.get(material.original) for slot in item.material_slots if (material := override or slot.material)},
-               item.data.uv_layers) for item in items if item.type == "MESH"]
-
-    def number(material: str, uv_map: str) -> int:
-        found = {index for used, maps in layers if material in used for index, layer in enumerate(maps)
-                 if (layer.name == uv_map if uv_map else layer.active_render)}
-        if len(found) > 1:
-            written.note(f"material '{material}': on some meshes, another UV map than its own lays its image")
-        return min(found, default=0)
-
-    return number
 
 
 def move_instanced_areas(gltf: Gltf, lights: dict[str, Any], rendered: Rendered, shown: Collection[int],
@@ -237,7 +221,9 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     written.notes += overlooked.lost(scene, document, gltf.tree, rendered, surfaces, brought)
     written.notes += overlooked.notes(rendered.items.values(), view_layer)
     mend_surfaces(gltf, written, override, names)
-    uv_set = uv_sets(rendered.items.values(), names, override, written)
+    meshes = layers.users(rendered.items.values(), names, override)
+    uv_set = layers.uv_sets(meshes, written)
+    written.notes += [*layers.missing(meshes, written), *layers.tangents(written, uv_set)]
     binary = glb_materials.mend(document, gltf.binary, written, bytes_of, uv_set)
     origins = own_materials(document, written, rendered, view_layer, scene.etendue.integrator, names)
     glb.write_glb(file, document, glb.add_motion(document, binary, gltf.times, gltf.motions))

@@ -232,7 +232,15 @@ class Reader:
 
     def glossy(self, shader: Seen) -> Document:
         self.flat(shader)
-        return {"base_color": self.color(shader, "Color"), "metallic": 1.0, "roughness": self.roughness(shader, 0.5)}
+        result = {"base_color": self.color(shader, "Color"), "metallic": 1.0, "roughness": self.roughness(shader, 0.5)}
+        stretch = min(max(self.number(shader, "Anisotropy", default=0.0), -0.99), 0.99)
+        if stretch == 0.0 or result["roughness"] == 0.0:
+            return result
+        if shader.is_linked("Tangent"):
+            self.note(f"the tangent of '{shader.name}' is not brought over")
+        # It is wide across the tangent, that of the Principled BSDF along it; a negative one turns it.
+        turn = self.number(shader, "Rotation", default=0.0) + (0.25 if stretch > 0.0 else 0.0)
+        return result | stretched(1.0 - abs(stretch), result["roughness"], turn)
 
     def glass(self, shader: Seen) -> Document:
         self.flat(shader)
@@ -439,9 +447,14 @@ class Reader:
             source = shader.source(name)
             if source is not None and not taken:
                 self.note(f"what is linked to '{name}' of '{shader.name}' is not brought over")
-            elif source is not None and source.type != "NORMAL_MAP":
+            elif source is not None and (source.type != "NORMAL_MAP" or getattr(source.node, "space", "TANGENT") != "TANGENT"):
                 self.written.unbumped.add(self.name)
-                self.note(f"'{source.name}' at its input {name} is not brought over: only normal maps are")
+                self.note(f"'{source.name}' at its input {name} is not brought over: only normal maps in tangent space are")
+            elif source is not None:
+                self.number(source, "Strength", default=1.0)
+                image = behind(source.source("Color"), "TEX_IMAGE")
+                if image is not None:
+                    self.written.tangents[self.name] = (textures.laid(image, False).uv_map, getattr(source.node, "uv_map", ""))
 
     def subsurface(self, shader: Seen) -> Document | None:
         """A translucent body in place of the material, from a weight of one half on; None below that."""
@@ -493,8 +506,12 @@ def body(albedo: Any, radius: Any, scale: float, rough: float, ior: float, forwa
 
 
 def anisotropy(stretch: float, roughness: float, rotation: float) -> Document:
-    """glTF's factors with the two widths that Cycles' lobe has: r² / a and r² a, where a = sqrt(1 - 0.9 stretch)."""
-    aspect = math.sqrt(1.0 - 0.9 * min(stretch, 1.0))
+    """glTF's factors for the lobe of the Principled BSDF, whose aspect is sqrt(1 - 0.9 stretch)."""
+    return stretched(math.sqrt(1.0 - 0.9 * min(stretch, 1.0)), roughness, rotation)
+
+
+def stretched(aspect: float, roughness: float, rotation: float) -> Document:
+    """glTF's factors with the two widths that Cycles' lobes have, r² / aspect and r² aspect."""
     wide, narrow = min(roughness ** 2 / aspect, 1.0), min(roughness ** 2 * aspect, 1.0)
     strength = math.sqrt((wide - narrow) / (1.0 - narrow)) if narrow < 1.0 else 0.0
     return {"roughness": math.sqrt(narrow), "anisotropy_strength": strength, "anisotropy_rotation": 2.0 * math.pi * rotation}

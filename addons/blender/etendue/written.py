@@ -32,6 +32,7 @@ class Written:
     alphas: dict[str, float] = field(default_factory=dict)  # multiply what the exporter has
     textures: dict[str, Texture] = field(default_factory=dict)  # base colours that the exporter lacks
     unbumped: set[str] = field(default_factory=set)  # whose normal map is a height map
+    tangents: dict[str, tuple[str, str]] = field(default_factory=dict)  # UV maps of a map of normals: its image's, its tangents'
     bare: set[str] = field(default_factory=set)  # whose surface the exporter has taken from a shader that is not shown
     dark: set[str] = field(default_factory=set)  # whose light it has taken from such a one
     shown: dict[str, list[Seen]] = field(default_factory=dict)  # the shaders that are read
