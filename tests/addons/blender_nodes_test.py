@@ -160,6 +160,16 @@ class Worlds(unittest.TestCase):
                               ({"Location": (0.1, 0.0, 0.0)}, 1)):
             self.assertEqual(len(self.environment(self.background(self.sky(**mapping)))[1].notes), said)
 
+    def test_what_does_not_see_the_world_is_said(self):
+        for flags, said in (({}, 0), ({"camera": False}, 0), ({"glossy": False}, 1), ({"scatter": False}, 1)):
+            result = Written()
+            world = fake.world(self.background(GREY), cycles_visibility=fake.SimpleNamespace(**flags))
+            scene_settings.environment(world, False, result)
+            self.assertEqual(len(result.notes), said)
+        result = Written()
+        scene_settings.environment(fake.world(self.background(GREY), cycles=fake.SimpleNamespace(max_bounces=0)), False, result)
+        self.assertEqual(len(result.notes), 1)
+
     def test_view_layers_without_their_environment_are_dark(self):
         scene = fake.scene()
         scene.world = fake.world(self.background(GREY))
@@ -442,6 +452,13 @@ class Materials(unittest.TestCase):
     def test_a_coat_by_a_texture_has_a_quarter_of_its_light_too(self):
         self.assertEqual(self.material(fake.principled(Clearcoat=fake.texture(fake.image())))[0]["clearcoat"], 0.25)
 
+    def test_shadows_that_are_not_transparent_are_said(self):
+        for alpha, transparent_shadow, said in ((1.0, False, 0), (0.5, True, 0), (0.5, False, 1)):
+            result, item = Written(), fake.material("M", fake.principled(Alpha=alpha))
+            item.cycles = fake.SimpleNamespace(use_transparent_shadow=transparent_shadow)
+            scene_settings.material(item, True, result)
+            self.assertEqual(len(result.notes), said)
+
     def test_alpha_that_eevee_clips_is_coverage(self):
         self.assertEqual(self.material(fake.principled(), blend="CLIP")[1].blended, {"M"})
 
@@ -652,6 +669,12 @@ class Overlooked(unittest.TestCase):
             self.assertEqual(len(self.notes(item)), said)
         self.assertEqual(self.notes(aovs=[fake.SimpleNamespace(name="Key")]), ["shader AOVs are not brought over: 'Key'"])
         self.assertEqual(len(self.notes(use_volumes=False, name="Layer")), 1)
+        self.assertEqual(self.notes(use_solid=False, name="Layer"), ["surfaces are shown in view layers without them: 'Layer'"])
+
+    def test_lamps_with_bounces_of_their_own_are_said(self):
+        for bounces, said in ((1024, 0), (0, 1)):
+            lamp = fake.light("POINT", cycles=fake.SimpleNamespace(max_bounces=bounces, cast_shadow=True))
+            self.assertEqual(len(self.notes(fake.item("Lamp", lamp, "LIGHT"))), said)
 
     def test_volumes_hair_and_lamps(self):
         hair = fake.SimpleNamespace(settings=fake.SimpleNamespace(type="HAIR", render_type="PATH"))

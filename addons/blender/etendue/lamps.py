@@ -10,6 +10,7 @@ from .nodes import Seen, active_output
 from .written import Document, Written
 
 LEAST_SPREAD = math.radians(1.0)
+ANY_BOUNCES = 1024  # of light, after which a lamp or a world is still seen, unless another number is given
 
 
 def is_portal(light: Any) -> bool:

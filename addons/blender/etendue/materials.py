@@ -49,6 +49,8 @@ def material(material: Any, closed: bool, written: Written, whole: bool = False,
             written.blended.add(reader.name)
         result = reader.surface(shader)
         reader.notes_of_textures(shader)
+        if reader.name in written.blended and not getattr(getattr(material, "cycles", None), "use_transparent_shadow", True):
+            reader.note("its shadow is as transparent as itself, though Transparent Shadows are off")
         reader.strip()
         return reader.filled(result, volume) if volume is not None else result
     reader.strip()

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from .identity import Tree
-from .lamps import is_portal
+from .lamps import ANY_BOUNCES, is_portal
 from .written import Document
 
 SHOWN = 4  # names in a note
@@ -29,13 +29,14 @@ def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
                "of Ray Visibility, only Camera is brought over"),
               (asks_for_viewports, "geometry nodes ask for Is Viewport, which is true in renders too"),
               (casts_no_shadow, "lamps cast shadows even where they should not"),
+              (has_max_bounces, "the Max Bounces of lamps are not brought over"),
               (lambda item: any(getattr(getattr(item, "light_linking", None), name, None) is not None
                                 for name in ("receiver_collection", "blocker_collection")),
                "light linking is not brought over")]
     return [*said("light groups are not brought over", getattr(view_layer, "lightgroups", ())),
             *said("shader AOVs are not brought over", getattr(view_layer, "aovs", ())),
-            *said("volumes are shown in view layers without them",
-                  [] if getattr(view_layer, "use_volumes", True) else [view_layer]),
+            *(note for flag, text in (("use_volumes", "volumes"), ("use_solid", "surfaces"))
+              for note in said(f"{text} are shown in view layers without them", [] if getattr(view_layer, flag, True) else [view_layer])),
             *(note for test, text in tests for note in said(text, filter(test, items)))]
 
 
@@ -96,6 +97,10 @@ def casts_no_shadow(item: Any) -> bool:
     # Since Blender 4.2 the switch is the lamp's own, before it is that of Eevee.
     return not (item.data.cycles.cast_shadow if hasattr(getattr(item.data, "cycles", None), "cast_shadow")
                 else getattr(item.data, "use_shadow", True))
+
+
+def has_max_bounces(item: Any) -> bool:
+    return item.type == "LIGHT" and getattr(getattr(item.data, "cycles", None), "max_bounces", ANY_BOUNCES) < ANY_BOUNCES
 
 
 def has_hair(item: Any) -> bool:

@@ -102,6 +102,11 @@ def straighten(document: dict[str, Any], tree: Tree) -> None:
             worlds[number] = exact
 
 
+def field_of_view(camera: Any) -> tuple[float, ...]:
+    """Returns what Cycles blurs of a camera beside its place: the focal length and the sensor of a perspective one."""
+    return (camera.lens, camera.sensor_width, camera.sensor_height) if camera.type == "PERSP" else ()
+
+
 def loose_instances(depsgraph: Any) -> dict[Any, list[Matrix]]:
     """Returns where instances stand that have no objects of their own: on vertices, faces and particles, and those of
     geometry nodes; by their instancers, and as seen from these."""
@@ -127,17 +132,21 @@ def find_motions(scene: Any, document: dict[str, Any], tree: Tree, blurred: bool
     rest = {number: item.matrix_world.copy() for number, item in followed.items()}
     loose = loose_instances(bpy.context.evaluated_depsgraph_get())
     restless: set[Any] = set()
+    camera = scene.camera.data if scene.camera is not None and scene.camera.type == "CAMERA" else None
+    views = set()
     try:
         for moment in frames:
             whole = int(numpy.floor(moment))
             scene.frame_set(whole, subframe=moment - whole)
             worlds.append({number: item.matrix_world.copy() for number, item in followed.items()})
+            views |= {field_of_view(camera)} if camera is not None else set()
             if loose and moment in (frames[0], frames[-1]):
                 there = loose_instances(bpy.context.evaluated_depsgraph_get())
                 restless |= {item for item, places in loose.items() if len(places) != len(there.get(item, ()))
                              or any(map(differ, places, there[item]))}
     finally:
         scene.frame_set(frame, subframe=subframe)
+    notes += said("the focal length of cameras does not change while the shutter is open", [camera] if len(views) > 1 else [])
     notes += said("instances on points, faces or particles do not move while the shutter is open", restless)
     still = {number for number in followed if blurred and not all(
         moves_blurred(tree.objects[at]) for at in (number, tree.top_instancer(number)) if at is not None)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from .lamps import ANY_BOUNCES
 from .nodes import Seen, active_output, behind
 from .written import Document, Written
 
@@ -17,6 +18,10 @@ def environment(world: Any, transparent: bool, written: Written) -> Document | N
     if world is None:
         return None
     visible = not transparent and world_is_visible(world)
+    if hides_from_rays(world):
+        written.note("of the world's Ray Visibility, only Camera is brought over")
+    if getattr(getattr(world, "cycles", None), "max_bounces", ANY_BOUNCES) < ANY_BOUNCES:
+        written.note("the Max Bounces of the world are not brought over")
     result: Document = {} if visible else {"visible_to_camera": False}
     if not world.use_nodes or world.node_tree is None:
         return result | {"color": list(world.color)[:3]}
@@ -100,6 +105,12 @@ def world_is_visible(world: Any) -> bool:
     if hasattr(world, "visible_camera"):
         return world.visible_camera
     return getattr(getattr(world, "cycles_visibility", None), "camera", True)
+
+
+def hides_from_rays(world: Any) -> bool:
+    """Returns whether some kind of rays but the camera's does not see it."""
+    flags = getattr(world, "cycles_visibility", None)
+    return not all(getattr(flags, name, True) for name in ("diffuse", "glossy", "transmission", "scatter"))
 
 
 def mist(settings: Any) -> Document:
