@@ -459,6 +459,20 @@ class Materials(unittest.TestCase):
             scene_settings.material(item, True, result)
             self.assertEqual(len(result.notes), said)
 
+    def test_images_times_constants_are_brought_over_by_the_exporter(self):
+        def product(tint=GREY, factor=1.0, blend="MULTIPLY"):
+            inputs = {"Factor": factor, "V": None, "A": None, "B": None, "C": None, "D": None, "A__6": fake.texture(fake.image()), "B__7": tint}
+            return fake.Node("MIX", inputs, data_type="RGBA", blend_type=blend)
+
+        for node, said in ((product(), 0), (product(rgb(RED)), 0), (product(factor=0.5), 1), (product(blend="ADD"), 1),
+                           (product(fake.Node("TEX_NOISE")), 1)):
+            self.assertEqual(len(self.material(fake.principled(Base_Color=node))[1].notes), said)
+        rough = fake.Node("MATH", {"Value": fake.texture(fake.image(space="Non-Color")), "Value__2": 0.5}, operation="MULTIPLY")
+        self.assertEqual(self.material(fake.principled(Roughness=rough))[1].notes, [])
+        self.assertEqual(len(self.material(fake.principled(Clearcoat=rough))[1].notes), 1)
+        # The add-on itself brings over the image of Diffuse alone.
+        self.assertEqual(len(self.material(diffuse(product()))[1].notes), 1)
+
     def test_alpha_that_eevee_clips_is_coverage(self):
         self.assertEqual(self.material(fake.principled(), blend="CLIP")[1].blended, {"M"})
 

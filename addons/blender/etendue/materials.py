@@ -106,7 +106,7 @@ class Reader:
         return matte(BLACK)
 
     def notes_of_textures(self, shader: Seen) -> None:
-        for text in textures.notes(shader, self.written.textures.get(self.name)):
+        for text in textures.notes(shader, self.written.textures.get(self.name), [self.exported[kind] for kind in self.kept]):
             self.note(text)
 
     # --- what is in the way of shaders

@@ -4,7 +4,7 @@ Blender."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Any
 
 from .nodes import Seen, behind, place
@@ -19,23 +19,43 @@ SOURCES = {"SEQUENCE": "a sequence", "MOVIE": "a movie"}
 WRAPS = {"EXTEND": 33071, "CLIP": 33071, "MIRROR": 33648, "REPEAT": 10497}
 LINEAR_FILTERS, CLOSEST_FILTERS = {"magFilter": 9729, "minFilter": 9987}, {"magFilter": 9728, "minFilter": 9984}
 COLORS = ("Base Color", "Color", "Emission", "Emission Color", "Subsurface Color")  # inputs that are colours, not data
+FACTORS = ("Metallic", "Roughness")  # inputs of which the exporter reads an image times a constant
 LINEAR = ("Linear", "Linear Rec.709", "Non-Color", "Raw")  # spaces whose pixels are taken as they are
 
 
-def notes(shader: Seen, own: Texture | None) -> Iterator[str]:
+def notes(shader: Seen, own: Texture | None, exported: Collection[tuple[str, ...]] = ()) -> Iterator[str]:
     """Says what is lost of all that leads to a shader: nodes that change colours, and images that lie otherwise. `own` is
-    the image that the add-on itself puts into the file."""
+    the image that the add-on itself puts into the file; `exported` has the places of the shaders that the exporter reads."""
     unread: list[str] = []
+    products = {place(source) for seen in all_behind(shader) if place(seen) in exported
+                for name, source in seen.sources() if is_product(name, source)}
     for seen in all_behind(shader):
         if seen.type == "TEX_IMAGE":
             yield from notes_of_image(seen)
-        elif not seen.type.startswith(SHADERS) and seen.type not in READ and seen.constant() is None and seen.name not in unread:
+        elif not (seen.type.startswith(SHADERS) or seen.type in READ or place(seen) in products
+                  or seen.constant() is not None or seen.name in unread):
             unread.append(seen.name)
     for seen in all_behind(shader):
         if seen.type.startswith(SHADERS) and seen.type not in ("MIX_SHADER", "ADD_SHADER"):
             yield from notes_of_spaces(seen, own)
     if unread:
         yield f"nodes that are not brought over: {', '.join(repr(name) for name in unread)}"
+
+
+def is_product(name: str, seen: Seen) -> bool:
+    """Returns whether the exporter makes a factor of what is linked to an input of this name: an image times a constant."""
+    if name in COLORS and seen.type == "MIX":
+        node = seen.node
+        if node.data_type != "RGBA" or node.blend_type != "MULTIPLY" or seen.value(0) != 1.0:
+            return False
+        parts = [seen.socket(at) for at in (6, 7)]  # A and B of colours
+    elif name in FACTORS and seen.type == "MATH" and seen.node.operation == "MULTIPLY":
+        parts = [seen.socket(at) for at in (0, 1)]
+    else:
+        return False
+    sources = [seen.source_of(part) for part in parts]
+    return any(one is not None and one.type == "TEX_IMAGE" and (other is None or other.type in ("RGB", "VALUE"))
+               for one, other in (sources, sources[::-1]))
 
 
 def all_behind(shader: Seen) -> Iterator[Seen]:
