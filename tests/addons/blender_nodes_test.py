@@ -473,6 +473,29 @@ class Materials(unittest.TestCase):
         # The add-on itself brings over the image of Diffuse alone.
         self.assertEqual(len(self.material(diffuse(product()))[1].notes), 1)
 
+    def test_alpha_of_images_darkens_their_colours_unless_something_is_linked_to_it(self):
+        for mode, linked, expected in (("STRAIGHT", False, True), ("STRAIGHT", True, False), ("NONE", False, False),
+                                       ("CHANNEL_PACKED", False, False)):
+            picture = fake.image(alpha_mode=mode, depth=32)
+            for shader, there in ((diffuse(fake.texture(picture)), True), (fake.principled(Base_Color=fake.texture(picture)), expected)):
+                shader.inputs[0].links[0].from_node.outputs["Alpha"].is_linked = linked
+                result = self.material(shader)[1]
+                self.assertEqual(["M"] if there else [], list(result.textures))
+                self.assertEqual([texture.times_alpha for texture in result.textures.values()], [expected] if there else [])
+
+    def test_images_that_are_told_to_have_no_alpha_are_opaque(self):
+        for mode, opaque in (("NONE", True), ("STRAIGHT", False)):
+            picture = fake.image(alpha_mode=mode, depth=32)
+            source = fake.texture(picture)
+            source.outputs["Alpha"].is_linked = True
+            for shader in (fake.principled(Base_Color=source, Alpha=(source, "Alpha")),
+                           fake.group(fake.principled(Base_Color=source, Alpha=(source, "Alpha"))),
+                           fake.mix((source, "Alpha"), transparent(), diffuse(source))):
+                result = self.material(shader)[1]
+                blended = "M" in result.blended or (result.textures and result.textures["M"].with_alpha)
+                self.assertEqual((bool(blended), result.notes), (not opaque, []))
+            self.assertEqual(self.material(fake.principled(Alpha=(source, "Alpha")))[1].opaque, {"M"} if opaque else set())
+
     def test_alpha_that_eevee_clips_is_coverage(self):
         self.assertEqual(self.material(fake.principled(), blend="CLIP")[1].blended, {"M"})
 
@@ -549,9 +572,20 @@ class Document(unittest.TestCase):
 
     def mend(self, **changes):
         document = self.document()
-        binary = glb_materials.mend(document, b"12345", Written(**changes), lambda image: (b"PNG", "image/png"),
+        binary = glb_materials.mend(document, b"12345", Written(**changes), lambda image, times_alpha: (b"PNG", "image/png"),
                                     lambda material, uv_map: {"": 0, "Second": 1}[uv_map])
         return document, binary
+
+    def test_alpha_that_is_not_there_goes(self):
+        document, _ = self.mend(opaque={"A"})
+        self.assertEqual(set(document["materials"][0]) & {"alphaMode", "alphaCutoff"}, set())
+
+    def test_images_that_their_alpha_darkens_take_the_place_of_the_exporters(self):
+        document = self.document()
+        document["materials"][0]["pbrMetallicRoughness"] = {"baseColorTexture": {"index": 7, "texCoord": 1}}
+        written = Written(textures={"A": Texture(fake.image(), times_alpha=True)})
+        glb_materials.mend(document, b"", written, lambda image, times_alpha: (b"PNG" if times_alpha else b"", "image/png"), lambda *names: 0)
+        self.assertEqual(document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"], {"index": 0, "texCoord": 1})
 
     def test_alpha_bumps_and_sides(self):
         document, _ = self.mend(blended={"A"}, alphas={"A": 0.5}, unbumped={"A"})
@@ -567,7 +601,7 @@ class Document(unittest.TestCase):
             document["materials"][0] |= {"pbrMetallicRoughness": {"metallicFactor": 0.5}, "extras": {"mine": 1},
                                          **copy.deepcopy(light)}
             document["materials"][0]["extensions"]["KHR_materials_ior"] = {"ior": 1.2}
-            glb_materials.mend(document, b"", Written(bare=bare, dark=dark), lambda image: (b"", ""), lambda *names: 0)
+            glb_materials.mend(document, b"", Written(bare=bare, dark=dark), lambda image, times_alpha: (b"", ""), lambda *names: 0)
             self.assertEqual(document["materials"][0], {"name": "A", "doubleSided": True, "extras": {"mine": 1}, **expected})
 
     def test_images_that_are_added_lie_as_blender_has_them(self):
@@ -620,6 +654,14 @@ class Document(unittest.TestCase):
             found = images.image_bytes(picture, None)[0]
             size, = struct.unpack_from(">I", found, 33)
             self.assertEqual(zlib.decompress(found[41:41 + size])[1], expected)
+
+    @unittest.skipIf(numpy is None, "there is no numpy (Debian: python3-numpy)")
+    def test_colours_are_multiplied_by_alpha_as_they_are_encoded(self):
+        pixels = fake.SimpleNamespace(foreach_get=lambda flat: flat.__setitem__(slice(None), [1.0, 0.5, 0.0, 0.4]))
+        picture = fake.image(size=(1, 1), channels=4, is_dirty=False, packed_file=None, pixels=pixels)
+        found = images.image_bytes(picture, None, True)[0]
+        size, = struct.unpack_from(">I", found, 33)
+        self.assertEqual(zlib.decompress(found[41:41 + size]), bytes([0, 102, 51, 0, 255]))
 
     @unittest.skipIf(numpy is None, "there is no numpy (Debian: python3-numpy)")
     def test_pixels_become_a_png(self):

@@ -67,8 +67,9 @@ def place_world_image(image: Any, folder: Path, environment: dict[str, Any]) -> 
     return []
 
 
-def bytes_of(image: Any) -> tuple[bytes, str]:
-    return image_bytes(image, Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None)
+def bytes_of(image: Any, times_alpha: bool) -> tuple[bytes, str]:
+    path = Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None
+    return image_bytes(image, path, times_alpha)
 
 
 def move_instanced_areas(gltf: Gltf, lights: dict[str, Any], rendered: Rendered, shown: Collection[int],

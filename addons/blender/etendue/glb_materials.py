@@ -11,10 +11,10 @@ from .written import Document, Texture, Written
 STRENGTH, TRANSFORM = "KHR_materials_emissive_strength", "KHR_texture_transform"
 
 
-def mend(document: Document, binary: bytes, written: Written, image_bytes: Callable[[Any], tuple[bytes, str]],
+def mend(document: Document, binary: bytes, written: Written, image_bytes: Callable[[Any, bool], tuple[bytes, str]],
          uv_set: Callable[[str, str], int]) -> bytes:
     """Makes all changes that reading the materials has asked for. `image_bytes` has the file of an image and its media
-    type, `uv_set` the number of a UV map on the meshes of a material, by their names. Returns the binary part with the
+    type, with its colours times its alpha if so asked, `uv_set` the number of a UV map on the meshes of a material, by their names. Returns the binary part with the
     images."""
     leave_out(document, written.left_out)
     strip(document, written.bare, written.dark)
@@ -22,6 +22,9 @@ def mend(document: Document, binary: bytes, written: Written, image_bytes: Calla
     remove_bumps(document, written.unbumped)
     binary = add_textures(document, binary, written.textures, image_bytes, uv_set)
     blend(document, written.blended, written.alphas)
+    for material in named(document, written.opaque):
+        material.pop("alphaMode", None)
+        material.pop("alphaCutoff", None)
     return binary
 
 
@@ -117,19 +120,22 @@ def blend(document: Document, names: Collection[str], alphas: Mapping[str, float
 
 
 def add_textures(document: Document, binary: bytes, textures: Mapping[str, Texture],
-                 image_bytes: Callable[[Any], tuple[bytes, str]], uv_set: Callable[[str, str], int]) -> bytes:
-    """Gives materials images as their base colours, where the exporter has none, or where their alpha counts."""
+                 image_bytes: Callable[[Any, bool], tuple[bytes, str]], uv_set: Callable[[str, str], int]) -> bytes:
+    """Gives materials images as their base colours, where the exporter has none, or where their alpha counts or darkens
+    them."""
     data = bytearray(binary)
-    sources: list[tuple[Any, int]] = []  # images, which may have equal names, and their numbers
+    # Images, which may have equal names, with whether their alpha darkens them, and their numbers.
+    sources: list[tuple[tuple[Any, bool], int]] = []
     for name, texture in textures.items():
         for material in named(document, {name}):
             surface = material.setdefault("pbrMetallicRoughness", {})
             given = copy.deepcopy(surface.get("baseColorTexture"))
-            if given is not None and not texture.with_alpha:
+            if given is not None and not (texture.with_alpha or texture.times_alpha):
                 continue
-            source = next((number for other, number in sources if other == texture.image), None)
+            wanted = (texture.image, texture.times_alpha)
+            source = next((number for other, number in sources if other == wanted), None)
             if source is None:
-                content, kind = image_bytes(texture.image)
+                content, kind = image_bytes(*wanted)
                 if not content:
                     continue
                 data += b"\0" * (-len(data) % 4)
@@ -137,7 +143,7 @@ def add_textures(document: Document, binary: bytes, textures: Mapping[str, Textu
                 data += content
                 source = add(document, "images", {"name": texture.image.name, "mimeType": kind,
                                                   "bufferView": add(document, "bufferViews", view)})
-                sources.append((texture.image, source))
+                sources.append((wanted, source))
             sampler = index_of(document, "samplers", texture.sampler)
             number = index_of(document, "textures", {"source": source, "sampler": sampler})
             surface["baseColorTexture"] = {**(laid(document, texture, uv_set(name, texture.uv_map)) if given is None else given),

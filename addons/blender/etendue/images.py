@@ -14,11 +14,12 @@ from .textures import LINEAR
 KINDS = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 
 
-def image_bytes(image: Any, path: Path | None) -> tuple[bytes, str]:
+def image_bytes(image: Any, path: Path | None, times_alpha: bool = False) -> tuple[bytes, str]:
     """Returns a PNG or JPEG file and its media type: the image's own, which is packed or at `path`, or one of its pixels,
-    made sRGB where those are linear; empty where the image is missing."""
+    made sRGB where those are linear, or opaque and multiplied by their alpha if so asked; empty where the image is
+    missing."""
     data, linear = b"", image.is_float or image.colorspace_settings.name in LINEAR
-    if image.source == "FILE" and not image.is_dirty and not linear:
+    if image.source == "FILE" and not image.is_dirty and not linear and not times_alpha:
         if image.packed_file is not None:
             data = bytes(image.packed_file.data)
         elif path is not None and path.is_file():
@@ -39,6 +40,8 @@ def image_bytes(image: Any, path: Path | None) -> tuple[bytes, str]:
         color = numpy.clip(pixels[..., :3], 0.0, 1.0)
         color = numpy.where(color <= 0.0031308, 12.92 * color, 1.055 * color ** (1.0 / 2.4) - 0.055)
         pixels = numpy.concatenate([color, pixels[..., 3:]], axis=2)
+    if times_alpha:  # of encoded colours, as Cycles does
+        pixels = numpy.concatenate([pixels[..., :3] * pixels[..., 3:], numpy.ones((height, width, 1), numpy.float32)], axis=2)
     return png(numpy.rint(numpy.clip(pixels, 0.0, 1.0) * 255.0).astype(numpy.uint8)), "image/png"
 
 

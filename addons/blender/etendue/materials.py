@@ -152,7 +152,8 @@ class Reader:
             return self.thin(result, coverage)
         if clear == 0 and rest is not None and "diffuse" not in result and self.masks(mix.source(0), rest):
             return self.thin(result)
-        self.note(f"what is linked to the factor of its node '{mix.name}' is not brought over: nothing is transparent")
+        if clear != 0 or not textures.has_no_alpha(mix.source(0)):
+            self.note(f"what is linked to the factor of its node '{mix.name}' is not brought over: nothing is transparent")
         return result
 
     def thin(self, result: Document, coverage: float | None = None) -> Document:
@@ -168,7 +169,7 @@ class Reader:
         """Returns whether a node is the alpha of the image that the shader has as its colour, which then counts."""
         own = behind(shader.source(*COLOR, "Color"), "TEX_IMAGE")
         return mask is not None and own is not None and mask.type == "TEX_IMAGE" and mask.output.name == "Alpha" \
-            and mask.node.image == own.node.image and self.fetch(own, True)
+            and mask.node.image == own.node.image and not textures.has_no_alpha(mask) and self.fetch(own, True)
 
     def add(self, shader: Seen) -> Document:
         """A shader and the light of another one; else the first of two."""
@@ -321,6 +322,9 @@ class Reader:
     def principled(self, shader: Seen) -> Document:
         taken = self.takes(shader)
         alpha = shader.value("Alpha", default=1.0)
+        if alpha is None and textures.has_no_alpha(shader.source("Alpha")):
+            alpha = 1.0
+            self.written.opaque |= {self.name} if taken else set()
         if taken and (alpha is None or alpha < 1.0):
             self.written.blended.add(self.name)
         self.check_normals(shader, taken)
@@ -379,7 +383,10 @@ class Reader:
                 result[key] = min(max(value, 0.0), 1.0)
             elif value is None and behind(shader.source(*names), "TEX_IMAGE") is None:
                 result[key] = self.number(shader, *names, default=usual)
-        color = shader.value(*COLOR)
+        color, source = shader.value(*COLOR), shader.source(*COLOR)
+        if source is not None and source.type == "TEX_IMAGE" and source.node.image is not None \
+                and shader.value("Alpha", default=1.0) is not None and textures.is_darkened(source):
+            self.fetch(source)
         if color is not None and shader.is_linked(*COLOR):
             result["base_color"] = clamped(color)
         elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", *VERTICES) is None:
@@ -428,6 +435,8 @@ class Reader:
     def cover_by(self, shader: Seen) -> None:
         """Makes the Alpha of a shader that the exporter has not seen coverage: a constant, or that of its own image."""
         alpha = shader.value("Alpha", default=1.0)
+        if alpha is None and textures.has_no_alpha(shader.source("Alpha")):
+            return
         if alpha is None and not self.masks(shader.source("Alpha"), shader):
             self.note(f"what is linked to 'Alpha' of '{shader.name}' is not brought over")
         elif alpha is not None and alpha < 1.0:

@@ -79,6 +79,8 @@ def notes_of_image(texture: Seen) -> Iterator[str]:
         yield f"the image of '{texture.name}' is missing"
         return
     name = node.image.name
+    if not node.image.is_float and getattr(node.image, "alpha_mode", "") == "PREMUL":
+        yield f"the image '{name}' is taken to have straight alpha, not premultiplied"
     if node.projection != "FLAT":
         yield f"the image '{name}' is laid by {node.projection.lower()} projection, which is not brought over"
     if node.extension == "CLIP":
@@ -120,7 +122,20 @@ def laid(texture: Seen, with_alpha: bool) -> Texture:
     uv_map = coordinates.node.uv_map if coordinates is not None and coordinates.type == "UVMAP" else ""
     wrap, closest = WRAPS.get(node.extension, WRAPS["REPEAT"]), getattr(node, "interpolation", "Linear") == "Closest"
     sampler = {"wrapS": wrap, "wrapT": wrap, **(CLOSEST_FILTERS if closest else LINEAR_FILTERS)}
-    return Texture(node.image, with_alpha, uv_map, moved, sampler)
+    return Texture(node.image, with_alpha, not with_alpha and is_darkened(texture), uv_map, moved, sampler)
+
+
+def is_darkened(texture: Seen) -> bool:
+    """Returns whether the alpha of an image darkens its colours: in Cycles it does unless something is linked to it."""
+    image, alpha = texture.node.image, texture.node.outputs.get("Alpha")
+    return (not image.is_float and getattr(image, "alpha_mode", "NONE") == "STRAIGHT" and getattr(image, "depth", 0) == 32
+            and not (alpha is not None and alpha.is_linked))
+
+
+def has_no_alpha(source: Seen | None) -> bool:
+    """Returns whether what is linked to an input is the alpha of an image that is told to have none, which is 1."""
+    return (source is not None and source.type == "TEX_IMAGE" and source.output.name == "Alpha" and source.node.image is not None
+            and getattr(source.node.image, "alpha_mode", "") == "NONE")
 
 
 def transform(mapping: Seen) -> Document | None:

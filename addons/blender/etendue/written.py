@@ -12,11 +12,12 @@ Document = dict[str, Any]
 
 @dataclass(frozen=True)
 class Texture:
-    """Holds an image that is to be a base colour: whether its alpha counts, the UV map that lays it, "" for the mesh's
-    own, and glTF's KHR_texture_transform and sampler for it."""
+    """Holds an image that is to be a base colour: whether its alpha counts, or darkens its colours, the UV map that lays it,
+    "" for the mesh's own, and glTF's KHR_texture_transform and sampler for it."""
 
     image: Any
     with_alpha: bool = False
+    times_alpha: bool = False
     uv_map: str = ""
     transform: Document = field(default_factory=dict)
     sampler: Document = field(default_factory=dict)
@@ -31,6 +32,7 @@ class Written:
     blended: set[str] = field(default_factory=set)  # whose alpha is coverage, where the exporter drops or cuts it
     alphas: dict[str, float] = field(default_factory=dict)  # multiply what the exporter has
     textures: dict[str, Texture] = field(default_factory=dict)  # base colours that the exporter lacks
+    opaque: set[str] = field(default_factory=set)  # whose alpha the exporter has from an image that has none
     unbumped: set[str] = field(default_factory=set)  # whose normal map is a height map
     tangents: dict[str, tuple[str, str]] = field(default_factory=dict)  # UV maps of a map of normals: its image's, its tangents'
     bare: set[str] = field(default_factory=set)  # whose surface the exporter has taken from a shader that is not shown
