@@ -402,7 +402,8 @@ def artists(folder, program):
         "triangles": {name: accessors[primitive(name)["indices"]]["count"] // 3 for name in ("Monitor", "Eye", "Within", "Ring")},
         "colors": {name: accessors[primitive(name)["attributes"]["COLOR_0"]]["type"] if "COLOR_0" in primitive(name)["attributes"]
                    else None for name in ("Used", "Unused")},
-        "painted": sorted([round(8 * float(number), 3) for number in value[:3]] for value in values), "material of": {name: materials[primitive(name)["material"]] for name in numbers if name and meshes[name]},
+        "painted": sorted([round(8 * float(number), 3) for number in value[:3]] for value in values),
+        "material of": {name: materials[primitive(name)["material"]] for name in numbers if name and meshes[name]},
         "blue": [entry["name"] for entry in found.gltf["materials"]
                  if entry.get("pbrMetallicRoughness", {}).get("baseColorFactor", [])[:3] == [0, 0, 1]],
         "lights": sorted(document["lights"]), "indices": found.indices, "notes": found.notes,

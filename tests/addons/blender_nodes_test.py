@@ -13,7 +13,8 @@ from pathlib import Path
 
 import fake_blender as fake
 import skipped_tests
-from etendue import glb_materials, layers, materials, nodes, overlooked, program, scene_settings, textures, vertex_colors, volumes
+from etendue import glb_materials, layers, materials, nodes, overlooked, program, scene_settings, textures, volumes
+from etendue import vertex_colors
 from etendue.written import Texture, Written
 
 try:
@@ -167,7 +168,8 @@ class Worlds(unittest.TestCase):
             scene_settings.environment(world, False, result)
             self.assertEqual(len(result.notes), said)
         result = Written()
-        scene_settings.environment(fake.world(self.background(GREY), cycles=fake.SimpleNamespace(max_bounces=0)), False, result)
+        world = fake.world(self.background(GREY), cycles=fake.SimpleNamespace(max_bounces=0))
+        scene_settings.environment(world, False, result)
         self.assertEqual(len(result.notes), 1)
 
     def test_view_layers_without_their_environment_are_dark(self):
@@ -261,7 +263,8 @@ class Materials(unittest.TestCase):
         glass = fake.Node("BSDF_GLASS", {"Color": RED, "Roughness": 0.0, "IOR": 1.45})
         wax = {"Subsurface": 1.0, "Subsurface_Color": RED, "Subsurface_Radius": (1.0, 1.0, 1.0)}
         for shader, key, there, said in (
-                (fake.mix(0.25, glass, transparent()), "solid", False, 1), (fake.mix(1.0, transparent(), glass), "solid", True, 0),
+                (fake.mix(0.25, glass, transparent()), "solid", False, 1),
+                (fake.mix(1.0, transparent(), glass), "solid", True, 0),
                 (fake.principled(Transmission=1.0, Alpha=0.5), "solid", False, 1),
                 (fake.principled(Transmission=1.0, Alpha=1.0), "solid", True, 0),
                 (fake.principled(Transmission=1.0, Alpha=0.9), "solid", True, 1),
@@ -421,18 +424,21 @@ class Materials(unittest.TestCase):
 
     def test_strengths_of_light_that_are_linked_are_constants_or_said(self):
         image = fake.texture(fake.image())
+        twice = fake.Node("MATH", {"Value": 3.0, "Value__2": 2.0}, operation="MULTIPLY")
         for light, strength, expected, said in (
                 (RED, value(3.0), {"emission": {"color": [0.8, 0.2, 0.1], "strength": 3.0}}, 0),
                 (RED, image, {"emission": {"color": [0.8, 0.2, 0.1], "strength": 1.0}}, 1),
                 (image, value(3.0), {}, 0),
-                (image, fake.Node("MATH", {"Value": 3.0, "Value__2": 2.0}, operation="MULTIPLY"), {"emissive_strength": 6.0}, 0),
+                (image, twice, {"emissive_strength": 6.0}, 0),
                 ((0.0, 0.0, 0.0, 1.0), value(3.0), {}, 0)):
             found, result = self.material(fake.principled(Emission=light, Emission_Strength=strength))
             self.assertEqual((found, len([text for text in result.notes if "linked to" in text])), (expected, said))
 
     def test_what_comes_through_is_rougher_as_transmission_roughness_says(self):
-        for kind, transmission, rough, expected, said in (("GGX", 1.0, 0.2, 0.6, 0), ("MULTI_GGX", 1.0, 0.2, None, 0), ("GGX", 0.0, 0.2, None, 0),
-                                                          ("GGX", 0.5, 0.2, None, 1), ("GGX", 1.0, fake.texture(fake.image()), None, 1)):
+        image = fake.texture(fake.image())
+        for kind, transmission, rough, expected, said in (
+                ("GGX", 1.0, 0.2, 0.6, 0), ("MULTI_GGX", 1.0, 0.2, None, 0), ("GGX", 0.0, 0.2, None, 0),
+                ("GGX", 0.5, 0.2, None, 1), ("GGX", 1.0, image, None, 1)):
             shader = fake.principled(Transmission=transmission, Roughness=rough, Transmission_Roughness=0.5)
             shader.distribution = kind
             found, result = self.material(shader)
@@ -461,13 +467,15 @@ class Materials(unittest.TestCase):
 
     def test_images_times_constants_are_brought_over_by_the_exporter(self):
         def product(tint=GREY, factor=1.0, blend="MULTIPLY"):
-            inputs = {"Factor": factor, "V": None, "A": None, "B": None, "C": None, "D": None, "A__6": fake.texture(fake.image()), "B__7": tint}
+            inputs = {"Factor": factor, "V": None, "A": None, "B": None, "C": None, "D": None,
+                      "A__6": fake.texture(fake.image()), "B__7": tint}
             return fake.Node("MIX", inputs, data_type="RGBA", blend_type=blend)
 
         for node, said in ((product(), 0), (product(rgb(RED)), 0), (product(factor=0.5), 1), (product(blend="ADD"), 1),
                            (product(fake.Node("TEX_NOISE")), 1)):
             self.assertEqual(len(self.material(fake.principled(Base_Color=node))[1].notes), said)
-        rough = fake.Node("MATH", {"Value": fake.texture(fake.image(space="Non-Color")), "Value__2": 0.5}, operation="MULTIPLY")
+        image = fake.texture(fake.image(space="Non-Color"))
+        rough = fake.Node("MATH", {"Value": image, "Value__2": 0.5}, operation="MULTIPLY")
         self.assertEqual(self.material(fake.principled(Roughness=rough))[1].notes, [])
         self.assertEqual(len(self.material(fake.principled(Clearcoat=rough))[1].notes), 1)
         # The add-on itself brings over the image of Diffuse alone.
@@ -477,11 +485,12 @@ class Materials(unittest.TestCase):
         for mode, linked, expected in (("STRAIGHT", False, True), ("STRAIGHT", True, False), ("NONE", False, False),
                                        ("CHANNEL_PACKED", False, False)):
             picture = fake.image(alpha_mode=mode, depth=32)
-            for shader, there in ((diffuse(fake.texture(picture)), True), (fake.principled(Base_Color=fake.texture(picture)), expected)):
-                shader.inputs[0].links[0].from_node.outputs["Alpha"].is_linked = linked
-                result = self.material(shader)[1]
-                self.assertEqual(["M"] if there else [], list(result.textures))
-                self.assertEqual([texture.times_alpha for texture in result.textures.values()], [expected] if there else [])
+            source = fake.texture(picture)
+            source.outputs["Alpha"].is_linked = linked
+            for shader, there in ((diffuse(source), True), (fake.principled(Base_Color=source), expected)):
+                found = self.material(shader)[1].textures
+                self.assertEqual({name: texture.times_alpha for name, texture in found.items()},
+                                 {"M": expected} if there else {})
 
     def test_images_that_are_told_to_have_no_alpha_are_opaque(self):
         for mode, opaque in (("NONE", True), ("STRAIGHT", False)):
@@ -494,7 +503,8 @@ class Materials(unittest.TestCase):
                 result = self.material(shader)[1]
                 blended = "M" in result.blended or (result.textures and result.textures["M"].with_alpha)
                 self.assertEqual((bool(blended), result.notes), (not opaque, []))
-            self.assertEqual(self.material(fake.principled(Alpha=(source, "Alpha")))[1].opaque, {"M"} if opaque else set())
+            result = self.material(fake.principled(Alpha=(source, "Alpha")))[1]
+            self.assertEqual(result.opaque, {"M"} if opaque else set())
 
     def test_alpha_that_eevee_clips_is_coverage(self):
         self.assertEqual(self.material(fake.principled(), blend="CLIP")[1].blended, {"M"})
@@ -572,7 +582,7 @@ class Document(unittest.TestCase):
 
     def mend(self, **changes):
         document = self.document()
-        binary = glb_materials.mend(document, b"12345", Written(**changes), lambda image, times_alpha: (b"PNG", "image/png"),
+        binary = glb_materials.mend(document, b"12345", Written(**changes), lambda *image: (b"PNG", "image/png"),
                                     lambda material, uv_map: {"": 0, "Second": 1}[uv_map])
         return document, binary
 
@@ -584,8 +594,10 @@ class Document(unittest.TestCase):
         document = self.document()
         document["materials"][0]["pbrMetallicRoughness"] = {"baseColorTexture": {"index": 7, "texCoord": 1}}
         written = Written(textures={"A": Texture(fake.image(), times_alpha=True)})
-        glb_materials.mend(document, b"", written, lambda image, times_alpha: (b"PNG" if times_alpha else b"", "image/png"), lambda *names: 0)
-        self.assertEqual(document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"], {"index": 0, "texCoord": 1})
+        glb_materials.mend(document, b"", written, lambda _, times_alpha: (b"PNG" if times_alpha else b"", "image/png"),
+                           lambda *names: 0)
+        surface = document["materials"][0]["pbrMetallicRoughness"]
+        self.assertEqual(surface["baseColorTexture"], {"index": 0, "texCoord": 1})
 
     def test_alpha_bumps_and_sides(self):
         document, _ = self.mend(blended={"A"}, alphas={"A": 0.5}, unbumped={"A"})
@@ -601,7 +613,7 @@ class Document(unittest.TestCase):
             document["materials"][0] |= {"pbrMetallicRoughness": {"metallicFactor": 0.5}, "extras": {"mine": 1},
                                          **copy.deepcopy(light)}
             document["materials"][0]["extensions"]["KHR_materials_ior"] = {"ior": 1.2}
-            glb_materials.mend(document, b"", Written(bare=bare, dark=dark), lambda image, times_alpha: (b"", ""), lambda *names: 0)
+            glb_materials.mend(document, b"", Written(bare=bare, dark=dark), lambda *image: (b"", ""), lambda *names: 0)
             self.assertEqual(document["materials"][0], {"name": "A", "doubleSided": True, "extras": {"mine": 1}, **expected})
 
     def test_images_that_are_added_lie_as_blender_has_them(self):
@@ -620,8 +632,8 @@ class Document(unittest.TestCase):
         self.assertEqual([node["mesh"] for node in document["nodes"]], [0, 1, 2])
         self.assertEqual(document["meshes"][2], {"primitives": [{}]})
         self.assertEqual(glb_materials.give_parts(document, {0: [b, a], 1: [a], 2: [a]}, [a, b]), [])
-        found = [[part.get("material") for part in document["meshes"][node["mesh"]]["primitives"]] for node in document["nodes"]]
-        self.assertEqual(found, [[1, 0], [0], [0]])
+        found = [document["meshes"][node["mesh"]]["primitives"] for node in document["nodes"]]
+        self.assertEqual([[part.get("material") for part in parts] for parts in found], [[1, 0], [0], [0]])
         # Without the material, or with other parts, nothing changes.
         self.assertEqual(glb_materials.give_parts(document, {0: [a], 1: [fake.Block("C")]}, [a, b]), [0, 1])
 
@@ -676,7 +688,8 @@ class Layers(unittest.TestCase):
         new = fake.SimpleNamespace
         maps = [new(name=uv_map, active_render=number == 0) for number, uv_map in enumerate(uv_maps)]
         slot = new(material=new(original=material))
-        return fake.item(name, new(uv_layers=maps, color_attributes=[new(name=color) for color in colors]), "MESH", material_slots=[slot])
+        mesh = new(uv_layers=maps, color_attributes=[new(name=color) for color in colors])
+        return fake.item(name, mesh, "MESH", material_slots=[slot])
 
     def notes(self, shader, *items):
         result, material = Written(), fake.Block("M")
@@ -725,7 +738,8 @@ class Overlooked(unittest.TestCase):
             self.assertEqual(len(self.notes(item)), said)
         self.assertEqual(self.notes(aovs=[fake.SimpleNamespace(name="Key")]), ["shader AOVs are not brought over: 'Key'"])
         self.assertEqual(len(self.notes(use_volumes=False, name="Layer")), 1)
-        self.assertEqual(self.notes(use_solid=False, name="Layer"), ["surfaces are shown in view layers without them: 'Layer'"])
+        self.assertEqual(self.notes(use_solid=False, name="Layer"),
+                         ["surfaces are shown in view layers without them: 'Layer'"])
 
     def test_lamps_with_bounces_of_their_own_are_said(self):
         for bounces, said in ((1024, 0), (0, 1)):

@@ -149,7 +149,8 @@ def give_parts(gltf: Gltf, written: Written, surfaces: dict[Any, Surface]) -> No
     """Gives the parts of meshes the materials that they are rendered with, where modifiers set others than the exporter
     has."""
     objects, nodes = gltf.tree.objects, gltf.document.get("nodes", [])
-    parts = {number: surfaces[item].parts for number, item in enumerate(objects) if item in surfaces and "mesh" in nodes[number]}
+    parts = {number: surfaces[item].parts for number, item in enumerate(objects)
+             if item in surfaces and "mesh" in nodes[number]}
     failed = [objects[number] for number in glb_materials.give_parts(gltf.document, parts, gltf.materials)]
     written.notes += overlooked.said("materials that modifiers set are not brought over", failed)
 

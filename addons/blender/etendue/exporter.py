@@ -86,7 +86,8 @@ def carried(materials: list[Any], scene: Any) -> Iterator[None]:
     item = bpy.data.objects.new("carrier", mesh)
     try:
         corners = range(3 * len(materials))
-        mesh.from_pydata([(number, number % 2, 0.0) for number in corners], [], [corners[at:at + 3] for at in corners[::3]])
+        places = [(number, number % 2, 0.0) for number in corners]
+        mesh.from_pydata(places, [], [corners[at:at + 3] for at in corners[::3]])
         for number, material in enumerate(materials):
             mesh.materials.append(material)
             mesh.polygons[number].material_index = number
@@ -100,10 +101,12 @@ def carried(materials: list[Any], scene: Any) -> Iterator[None]:
 @contextmanager
 def colors_of_corners() -> Iterator[None]:
     """Has the exporter of Blender 3.4 give each corner of a face the colour that it has while this lasts: by itself, it
-    takes the number of the corner's vertex for that of the corner. Later exporters, which are right, have no such method."""
+    takes the number of the corner's vertex for that of the corner. Later exporters, which are right, have no such
+    method."""
     name = "_PrimitiveCreator__get_color_attribute"
     try:
-        creator = importlib.import_module("io_scene_gltf2.blender.exp.gltf2_blender_gather_primitives_extract").PrimitiveCreator
+        module = importlib.import_module("io_scene_gltf2.blender.exp.gltf2_blender_gather_primitives_extract")
+        creator = module.PrimitiveCreator
         original = getattr(creator, name)
     except (ImportError, AttributeError):
         yield

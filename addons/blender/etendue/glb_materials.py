@@ -14,8 +14,8 @@ STRENGTH, TRANSFORM = "KHR_materials_emissive_strength", "KHR_texture_transform"
 def mend(document: Document, binary: bytes, written: Written, image_bytes: Callable[[Any, bool], tuple[bytes, str]],
          uv_set: Callable[[str, str], int]) -> bytes:
     """Makes all changes that reading the materials has asked for. `image_bytes` has the file of an image and its media
-    type, with its colours times its alpha if so asked, `uv_set` the number of a UV map on the meshes of a material, by their names. Returns the binary part with the
-    images."""
+    type, with its colours times its alpha if so asked, `uv_set` the number of a UV map on the meshes of a material, by
+    their names. Returns the binary part with the images."""
     leave_out(document, written.left_out)
     strip(document, written.bare, written.dark)
     shine_both_ways(document)
@@ -44,13 +44,14 @@ def override(document: Document, name: str) -> None:
 
 
 def give_parts(document: Document, parts: Mapping[int, Sequence[Any]], materials: Sequence[Any]) -> list[int]:
-    """Gives the primitives of the meshes of nodes, by their numbers, the materials that they are rendered with, None for
-    none. `materials` are those of the file. Returns the nodes where that is not possible."""
+    """Gives the primitives of the meshes of nodes, by their numbers, the materials that they are rendered with, None
+    for none. `materials` are those of the file. Returns the nodes where that is not possible."""
     failed, copies = [], {}
     for number, wanted in parts.items():
         node = document["nodes"][number]
         mesh = document["meshes"][node["mesh"]]
-        given = [materials[primitive["material"]] if "material" in primitive else None for primitive in mesh["primitives"]]
+        given = [materials[primitive["material"]] if "material" in primitive else None
+                 for primitive in mesh["primitives"]]
         if given == list(wanted):
             continue
         if len(given) != len(wanted) or any(part is not None and part not in materials for part in wanted):

@@ -1,5 +1,5 @@
-"""The UV maps and the colour attributes of meshes that materials ask for. Takes objects that look like Blender's, and needs
-nothing of Blender itself."""
+"""The UV maps and the colour attributes of meshes that materials ask for. Takes objects that look like Blender's, and
+needs nothing of Blender itself."""
 
 from __future__ import annotations
 
@@ -15,13 +15,14 @@ Users = list[tuple[set[Any], Any]]  # of each mesh, the names of its materials, 
 
 
 def users(items: Iterable[Any], names: dict[Any, str], override: Any) -> Users:
-    return [({names.get(material.original) for slot in item.material_slots if (material := override or slot.material)}, item)
-            for item in items if item.type == "MESH"]
+    """Returns the meshes among the objects that have one of their own, each with what uses it."""
+    return [({names.get(material.original) for slot in item.material_slots if (material := override or slot.material)},
+             item) for item in items if item.type == "MESH"]
 
 
 def uv_sets(meshes: Users, written: Written) -> Callable[[str, str], int]:
-    """Returns a function that has the number of a UV map on the meshes that have a material, by their names; an empty name is
-    for the map that is rendered."""
+    """Returns a function that has the number of a UV map on the meshes that have a material, by their names; an empty
+    name is for the map that is rendered."""
     def number(material: str, uv_map: str) -> int:
         found = {index for used, item in meshes if material in used for index, layer in enumerate(item.data.uv_layers)
                  if (layer.name == uv_map if uv_map else layer.active_render)}
@@ -34,7 +35,8 @@ def uv_sets(meshes: Users, written: Written) -> Callable[[str, str], int]:
 
 def uv_maps_before(shaders: Iterable[Any]) -> Iterator[str]:
     """Yields the names of the UV maps that lay images of shaders, and of those whose tangents turn their normals."""
-    for seen in (seen for shader in shaders if shader.type not in ("MIX_SHADER", "ADD_SHADER") for seen in all_behind(shader)):
+    lobes = (shader for shader in shaders if shader.type not in ("MIX_SHADER", "ADD_SHADER"))
+    for seen in (seen for shader in lobes for seen in all_behind(shader)):
         if seen.type == "TEX_IMAGE":
             yield laid(seen, False).uv_map
         elif seen.type == "NORMAL_MAP":
@@ -42,7 +44,7 @@ def uv_maps_before(shaders: Iterable[Any]) -> Iterator[str]:
 
 
 def missing(meshes: Users, written: Written) -> Iterator[str]:
-    """Says where meshes lack a UV map or a colour attribute that one of their materials names: others are in their place."""
+    """Says where meshes lack a UV map or a colour attribute that one of their materials names."""
     def lacking(material: str, there: Callable[[Any], Collection[str]], name: str) -> list[Any]:
         return [item for used, item in meshes if material in used and name not in there(item.data)]
 
@@ -51,12 +53,12 @@ def missing(meshes: Users, written: Written) -> Iterator[str]:
             yield from said(f"material '{material}': there is no UV map '{name}', and another is in its place",
                             lacking(material, lambda mesh: [layer.name for layer in mesh.uv_layers], name))
         for name in sorted(set(sum(attributes_at(shaders), [])) - {""}):
-            yield from said(f"material '{material}': there is no colour attribute '{name}', and another, or none, is in its place",
+            yield from said(f"material '{material}': there is no colour attribute '{name}', and another or none shows",
                             lacking(material, lambda mesh: [layer.name for layer in mesh.color_attributes], name))
 
 
 def tangents(written: Written, uv_set: Callable[[str, str], int]) -> Iterator[str]:
-    """Says where other tangents turn the normals of an image than those of the UV map that lays it, which glTF takes."""
+    """Says where other tangents turn the normals of an image than those of the UV map that lays it, which glTF has."""
     for material, (image, tangent) in written.tangents.items():
         if uv_set(material, image) != uv_set(material, tangent):
             yield f"material '{material}': the tangents of its normal map are those of the UV map that lays it"

@@ -49,7 +49,8 @@ def material(material: Any, closed: bool, written: Written, whole: bool = False,
             written.blended.add(reader.name)
         result = reader.surface(shader)
         reader.notes_of_textures(shader)
-        if reader.name in written.blended and not getattr(getattr(material, "cycles", None), "use_transparent_shadow", True):
+        settings = getattr(material, "cycles", None)
+        if reader.name in written.blended and not getattr(settings, "use_transparent_shadow", True):
             reader.note("its shadow is as transparent as itself, though Transparent Shadows are off")
         reader.strip()
         return reader.filled(result, volume) if volume is not None else result
@@ -106,7 +107,8 @@ class Reader:
         return matte(BLACK)
 
     def notes_of_textures(self, shader: Seen) -> None:
-        for text in textures.notes(shader, self.written.textures.get(self.name), [self.exported[kind] for kind in self.kept]):
+        exported = [self.exported[kind] for kind in self.kept]
+        for text in textures.notes(shader, self.written.textures.get(self.name), exported):
             self.note(text)
 
     # --- what is in the way of shaders
@@ -153,11 +155,12 @@ class Reader:
         if clear == 0 and rest is not None and "diffuse" not in result and self.masks(mix.source(0), rest):
             return self.thin(result)
         if clear != 0 or not textures.has_no_alpha(mix.source(0)):
-            self.note(f"what is linked to the factor of its node '{mix.name}' is not brought over: nothing is transparent")
+            self.note(f"what is linked to the factor of its node '{mix.name}' is not brought over: "
+                      "nothing is transparent")
         return result
 
     def thin(self, result: Document, coverage: float | None = None) -> Document:
-        """Makes a sheet of a body of this coverage, None for an image: the renderer does not look at the alpha of bodies."""
+        """Makes a sheet of a body of this coverage, None for an image: the renderer does not look at a body's alpha."""
         if "solid" in result and (coverage is None or coverage < BODY):
             del result["solid"]
             self.note("it is partly transparent, and shown as a thin sheet, which does not bend light")
@@ -392,8 +395,8 @@ class Reader:
         elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", *VERTICES) is None:
             self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
             result["base_color"] = GREY
-        # Where the exporter has black for what reflects, glTF reflects white at grazing angles all the same. Of glass, Specular
-        # says nothing.
+        # Where the exporter has black for what reflects, glTF reflects white at grazing angles all the same. Of glass,
+        # Specular says nothing.
         if shader.value("Specular", default=1.0) == 0.0 and shader.value(*TRANSMISSION, default=0.0) == 0.0:
             result["specular"] = 0.0
         if "EMISSION" in self.exported:
@@ -407,8 +410,8 @@ class Reader:
         return result
 
     def strength(self, shader: Seen) -> Document:
-        """The light of a shader that the exporter has seen, whose strength is linked to something: 1 where that is no constant,
-        as the exporter has it. With an image, it has the light itself, and the strength of a Value node."""
+        """The light of a shader that the exporter has seen, whose strength is linked to something: 1 where that is no
+        constant, as the exporter has it. With an image, it has the light itself, and the strength of a Value node."""
         light, strength = shader.value(*EMISSION), max(self.number(shader, "Emission Strength", default=1.0), 0.0)
         if light is None:
             source = shader.source("Emission Strength")
@@ -458,14 +461,17 @@ class Reader:
             source = shader.source(name)
             if source is not None and not taken:
                 self.note(f"what is linked to '{name}' of '{shader.name}' is not brought over")
-            elif source is not None and (source.type != "NORMAL_MAP" or getattr(source.node, "space", "TANGENT") != "TANGENT"):
+            elif source is not None and not (source.type == "NORMAL_MAP"
+                                             and getattr(source.node, "space", "TANGENT") == "TANGENT"):
                 self.written.unbumped.add(self.name)
-                self.note(f"'{source.name}' at its input {name} is not brought over: only normal maps in tangent space are")
+                self.note(f"'{source.name}' at its input {name} is not brought over: "
+                          "only normal maps in tangent space are")
             elif source is not None:
                 self.number(source, "Strength", default=1.0)
                 image = behind(source.source("Color"), "TEX_IMAGE")
                 if image is not None:
-                    self.written.tangents[self.name] = (textures.laid(image, False).uv_map, getattr(source.node, "uv_map", ""))
+                    own = textures.laid(image, False).uv_map
+                    self.written.tangents[self.name] = (own, getattr(source.node, "uv_map", ""))
 
     def subsurface(self, shader: Seen) -> Document | None:
         """A translucent body in place of the material, from a weight of one half on; None below that."""

@@ -36,7 +36,8 @@ def notes(items: Iterable[Any], view_layer: Any) -> list[str]:
     return [*said("light groups are not brought over", getattr(view_layer, "lightgroups", ())),
             *said("shader AOVs are not brought over", getattr(view_layer, "aovs", ())),
             *(note for flag, text in (("use_volumes", "volumes"), ("use_solid", "surfaces"))
-              for note in said(f"{text} are shown in view layers without them", [] if getattr(view_layer, flag, True) else [view_layer])),
+              if not getattr(view_layer, flag, True)
+              for note in said(f"{text} are shown in view layers without them", [view_layer])),
             *(note for test, text in tests for note in said(text, filter(test, items)))]
 
 
@@ -100,7 +101,9 @@ def casts_no_shadow(item: Any) -> bool:
 
 
 def has_max_bounces(item: Any) -> bool:
-    return item.type == "LIGHT" and getattr(getattr(item.data, "cycles", None), "max_bounces", ANY_BOUNCES) < ANY_BOUNCES
+    """Returns whether a lamp is not seen after some bounces of light."""
+    settings = getattr(item.data, "cycles", None)
+    return item.type == "LIGHT" and getattr(settings, "max_bounces", ANY_BOUNCES) < ANY_BOUNCES
 
 
 def has_hair(item: Any) -> bool:

@@ -146,7 +146,8 @@ def find_motions(scene: Any, document: dict[str, Any], tree: Tree, blurred: bool
                              or any(map(differ, places, there[item]))}
     finally:
         scene.frame_set(frame, subframe=subframe)
-    notes += said("the focal length of cameras does not change while the shutter is open", [camera] if len(views) > 1 else [])
+    if len(views) > 1:
+        notes += said("the focal length of cameras does not change while the shutter is open", [camera])
     notes += said("instances on points, faces or particles do not move while the shutter is open", restless)
     still = {number for number in followed if blurred and not all(
         moves_blurred(tree.objects[at]) for at in (number, tree.top_instancer(number)) if at is not None)}

@@ -25,7 +25,7 @@ LINEAR = ("Linear", "Linear Rec.709", "Non-Color", "Raw")  # spaces whose pixels
 
 def notes(shader: Seen, own: Texture | None, exported: Collection[tuple[str, ...]] = ()) -> Iterator[str]:
     """Says what is lost of all that leads to a shader: nodes that change colours, and images that lie otherwise. `own` is
-    the image that the add-on itself puts into the file; `exported` has the places of the shaders that the exporter reads."""
+    the image that the add-on itself puts into the file, `exported` the places of shaders that the exporter reads."""
     unread: list[str] = []
     products = {place(source) for seen in all_behind(shader) if place(seen) in exported
                 for name, source in seen.sources() if is_product(name, source)}
@@ -43,7 +43,8 @@ def notes(shader: Seen, own: Texture | None, exported: Collection[tuple[str, ...
 
 
 def is_product(name: str, seen: Seen) -> bool:
-    """Returns whether the exporter makes a factor of what is linked to an input of this name: an image times a constant."""
+    """Returns whether what is linked to an input of this name is an image times a constant, which the exporter makes a
+    factor."""
     if name in COLORS and seen.type == "MIX":
         node = seen.node
         if node.data_type != "RGBA" or node.blend_type != "MULTIPLY" or seen.value(0) != 1.0:
@@ -128,13 +129,13 @@ def laid(texture: Seen, with_alpha: bool) -> Texture:
 def is_darkened(texture: Seen) -> bool:
     """Returns whether the alpha of an image darkens its colours: in Cycles it does unless something is linked to it."""
     image, alpha = texture.node.image, texture.node.outputs.get("Alpha")
-    return (not image.is_float and getattr(image, "alpha_mode", "NONE") == "STRAIGHT" and getattr(image, "depth", 0) == 32
-            and not (alpha is not None and alpha.is_linked))
+    has_alpha = getattr(image, "alpha_mode", "NONE") == "STRAIGHT" and getattr(image, "depth", 0) == 32
+    return has_alpha and not image.is_float and not (alpha is not None and alpha.is_linked)
 
 
 def has_no_alpha(source: Seen | None) -> bool:
     """Returns whether what is linked to an input is the alpha of an image that is told to have none, which is 1."""
-    return (source is not None and source.type == "TEX_IMAGE" and source.output.name == "Alpha" and source.node.image is not None
+    return (source is not None and source.type == "TEX_IMAGE" and source.output.name == "Alpha"
             and getattr(source.node.image, "alpha_mode", "") == "NONE")
 
 

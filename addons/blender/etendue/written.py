@@ -12,8 +12,8 @@ Document = dict[str, Any]
 
 @dataclass(frozen=True)
 class Texture:
-    """Holds an image that is to be a base colour: whether its alpha counts, or darkens its colours, the UV map that lays it,
-    "" for the mesh's own, and glTF's KHR_texture_transform and sampler for it."""
+    """Holds an image that is to be a base colour: whether its alpha counts, or darkens its colours, the UV map that
+    lays it, "" for the mesh's own, and glTF's KHR_texture_transform and sampler for it."""
 
     image: Any
     with_alpha: bool = False
@@ -34,7 +34,7 @@ class Written:
     textures: dict[str, Texture] = field(default_factory=dict)  # base colours that the exporter lacks
     opaque: set[str] = field(default_factory=set)  # whose alpha the exporter has from an image that has none
     unbumped: set[str] = field(default_factory=set)  # whose normal map is a height map
-    tangents: dict[str, tuple[str, str]] = field(default_factory=dict)  # UV maps of a map of normals: its image's, its tangents'
+    tangents: dict[str, tuple[str, str]] = field(default_factory=dict)  # UV maps of a normal map's image and tangents
     bare: set[str] = field(default_factory=set)  # whose surface the exporter has taken from a shader that is not shown
     dark: set[str] = field(default_factory=set)  # whose light it has taken from such a one
     shown: dict[str, list[Seen]] = field(default_factory=dict)  # the shaders that are read
