@@ -391,6 +391,11 @@ def artists(folder, program):
         closed[name] = is_closed(item.to_mesh())
         item.to_mesh_clear()
     materials = [entry["name"] for entry in found.gltf["materials"]]
+    shutter = found.gltf["animations"][0]
+    channel = next(channel for channel in shutter["channels"] if channel["target"]["path"] == "translation"
+                   and nodes[channel["target"]["node"]].get("name") == "Dolly")
+    view = found.gltf["bufferViews"][accessors[shutter["samplers"][channel["sampler"]]["output"]]["bufferView"]]
+    ways = numpy.frombuffer(binary, numpy.float32, view["byteLength"] // 4, view["byteOffset"]).reshape(-1, 3)
     layer.objects.active = rig
     bpy.ops.object.mode_set(mode="POSE")
     export_scene(scene, layer, bpy.context.evaluated_depsgraph_get(), folder / "again", Path(program))
@@ -411,6 +416,7 @@ def artists(folder, program):
                   if nodes[number].get("extras")],
         "moves": sorted({nodes[channel["target"]["node"]].get("name", "") for animation in found.gltf["animations"]
                          for channel in animation["channels"]}), "shutter": document["shutter"],
+        "way of Dolly": (ways[-1] - ways[0]).tolist(),
         "reason": [reason_of(text) for text in ("Error: it is odd\nLocation: /usr/a.py:111\n",
                                                 "Error: Python: Traceback (most recent call last):\n  File \"a.py\", line 1, in b\n"
                                                 "    c()\n    ^^^\nValueError: odd\nLocation: /usr/a.py:111\n")]}))

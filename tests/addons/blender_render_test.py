@@ -303,6 +303,8 @@ class Export(InBlender):
         # Hand hangs on a bone, Top moves within its instances.
         self.assertEqual(found["moves"], ["Dolly", "Hand", "Top"])
         self.assertAlmostEqual(found["shutter"][1], 0.02 / 24.0)
+        # A metre a frame from before to after, though faster at the moment; the shutter is open for 0.02 frames.
+        self.assertAlmostEqual(found["way of Dolly"][0], 0.02, places=5)
         corners = [[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-7.0, -3.0)]  # of Whole and of Mesh
         self.assertEqual(found["stands"], sorted(2 * corners))
         self.assertEqual(found["notes"], ["image 'tile.1001.png': of its UDIM tiles, only the first is brought over",

@@ -14,18 +14,29 @@ from .overlooked import moves_blurred, said
 
 Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 KEYS = 9  # of motion while the shutter is open
-STILL = 0.01  # frames from the current one to where vectors are looked at without motion blur
+STILL = 0.01  # share of the ways to the frames before and after by which things move without motion blur, for vectors
 
 
 def moments(scene: Any, blurred: bool) -> tuple[list[float], list[float]]:
     """Frames at which motion is looked at, and their seconds from the opening of the shutter. Without motion blur, they are
-    as close as vectors need."""
-    start, end = scene_settings.shutter(scene.render, scene.etendue.shutter_position) if blurred else (-STILL, STILL)
+    those before and after, and the shutter is open for a share of the time between them."""
     rate = scene.render.fps / scene.render.fps_base
+    now = scene.frame_current + scene.frame_subframe
+    if not blurred:
+        return [now - 1.0, now, now + 1.0], [0.0, STILL / rate, 2.0 * STILL / rate]
+    start, end = scene_settings.shutter(scene.render, scene.etendue.shutter_position)
     steps = [index / (KEYS - 1) for index in range(KEYS)]
     offsets = [step * (end - start) for step in steps]
-    opens = scene.frame_current + scene.frame_subframe + start
-    return [opens + offset for offset in offsets], [offset / rate for offset in offsets]
+    return [now + start + offset for offset in offsets], [offset / rate for offset in offsets]
+
+
+Parts = tuple[Vector, Quaternion, Vector]  # a place, a turn and a scale
+
+
+def shortened(ways: list[Parts]) -> list[Parts]:
+    """Returns a share of the ways from the place in the middle to the others, on which vectors are theirs on average."""
+    place, turn, scale = ways[1]
+    return [(place.lerp(there[0], STILL), turn.slerp(there[1], STILL), scale.lerp(there[2], STILL)) for there in ways]
 
 
 def has_motion_blur(scene: Any, view_layer: Any) -> bool:
@@ -178,6 +189,7 @@ def find_motions(scene: Any, document: dict[str, Any], tree: Tree, blurred: bool
         for previous, part in zip(parts, parts[1:]):
             if part[1].dot(previous[1]) < 0.0:
                 part[1].negate()
+        parts = parts if blurred else shortened(parts)
         motion: glb.Motion = {
             "translation": [tuple(place) for place, _, _ in parts],
             "rotation": [(turn.x, turn.y, turn.z, turn.w) for _, turn, _ in parts],
