@@ -418,7 +418,7 @@ class Materials(unittest.TestCase):
         self.assertGreater(max(found["sheen_color"]), 0.1)
 
     def test_without_specular_nothing_reflects_at_grazing_angles_either(self):
-        for specular, expected in ((0.0, {"specular": 0.0}), (value(0.0), {"specular": 0.0}), (0.25, {})):
+        for specular, expected in ((0.0, {"specular": 0.0}), (value(0.25), {"specular": 0.5}), (0.25, {})):
             self.assertEqual(self.material(fake.principled(Specular=specular))[0], expected)
         self.assertNotIn("specular", self.material(fake.principled(Specular=0.0, Transmission=1.0))[0])
 
@@ -433,6 +433,14 @@ class Materials(unittest.TestCase):
                 ((0.0, 0.0, 0.0, 1.0), value(3.0), {}, 0)):
             found, result = self.material(fake.principled(Emission=light, Emission_Strength=strength))
             self.assertEqual((found, len([text for text in result.notes if "linked to" in text])), (expected, said))
+
+    def test_what_is_linked_to_inputs_that_are_constants_is_said(self):
+        noise = fake.Node("TEX_NOISE")
+        for name in ("Specular", "IOR", "Sheen", "Sheen_Tint", "Thin_Film_Thickness", "Anisotropic_Rotation", "Tangent"):
+            notes = self.material(fake.principled(**{name: noise}))[1].notes
+            self.assertEqual(len([text for text in notes if "linked to" in text]), 1, name)
+            self.assertEqual(self.material(fake.principled(**{name: value(0.0)}))[1].notes, [], name)
+        self.assertEqual(self.material(fake.principled(Specular=fake.texture(fake.image(space="Non-Color"))))[1].notes, [])
 
     def test_what_comes_through_is_rougher_as_transmission_roughness_says(self):
         image = fake.texture(fake.image())

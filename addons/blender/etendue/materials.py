@@ -16,6 +16,9 @@ COLOR, TRANSMISSION = ("Base Color",), ("Transmission Weight", "Transmission")
 EMISSION = ("Emission Color", "Emission")
 # Names of factors, those of inputs, and values of the Principled BSDF.
 FACTORS = (("metallic", ("Metallic",), 0.0), ("roughness", ("Roughness",), 0.5), ("transmission", TRANSMISSION, 0.0))
+# Other inputs that are brought over as constants alone.
+CONSTANTS = (("IOR",), ("Sheen Weight", "Sheen"), ("Sheen Tint",), ("Sheen Roughness",), ("Thin Film Thickness",),
+             ("Thin Film IOR",), ("Anisotropic Rotation",), ("Tangent",))
 GLOSSY = ("BSDF_GLOSSY", "BSDF_ANISOTROPIC")
 BODY = 0.85  # coverage from which on a body without transparency is nearer to Cycles than a sheet with it
 
@@ -332,6 +335,9 @@ class Reader:
             self.written.blended.add(self.name)
         self.check_normals(shader, taken)
         self.cut_at_one(shader.source(*EMISSION))
+        for names in CONSTANTS:
+            if shader.is_linked(*names):
+                self.number(shader, *names, default=0.0)
         wax = self.subsurface(shader)
         if wax is not None:
             return wax if alpha == 1.0 else self.thin(wax, alpha)
@@ -397,8 +403,12 @@ class Reader:
             result["base_color"] = GREY
         # Where the exporter has black for what reflects, glTF reflects white at grazing angles all the same. Of glass,
         # Specular says nothing.
-        if shader.value("Specular", default=1.0) == 0.0 and shader.value(*TRANSMISSION, default=0.0) == 0.0:
-            result["specular"] = 0.0
+        level = shader.value("Specular", default=1.0)
+        if level is None and behind(shader.source("Specular"), "TEX_IMAGE") is None:
+            self.number(shader, "Specular", default=0.5)
+        elif level is not None and shader.value(*TRANSMISSION, default=0.0) == 0.0 \
+                and (level == 0.0 or shader.is_linked("Specular")):
+            result["specular"] = min(2.0 * max(level, 0.0), 1.0)
         if "EMISSION" in self.exported:
             return result | self.glow(shader)
         # The exporter has white light where it cannot read the colour.
