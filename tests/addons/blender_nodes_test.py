@@ -436,11 +436,13 @@ class Materials(unittest.TestCase):
 
     def test_what_is_linked_to_inputs_that_are_constants_is_said(self):
         noise = fake.Node("TEX_NOISE")
-        for name in ("Specular", "IOR", "Sheen", "Sheen_Tint", "Thin_Film_Thickness", "Anisotropic_Rotation", "Tangent"):
+        for name in ("Specular", "IOR", "Sheen", "Sheen_Tint", "Thin_Film_Thickness", "Anisotropic_Rotation",
+                     "Tangent"):
             notes = self.material(fake.principled(**{name: noise}))[1].notes
             self.assertEqual(len([text for text in notes if "linked to" in text]), 1, name)
             self.assertEqual(self.material(fake.principled(**{name: value(0.0)}))[1].notes, [], name)
-        self.assertEqual(self.material(fake.principled(Specular=fake.texture(fake.image(space="Non-Color"))))[1].notes, [])
+        image = fake.texture(fake.image(space="Non-Color"))
+        self.assertEqual(self.material(fake.principled(Specular=image))[1].notes, [])
 
     def test_what_comes_through_is_rougher_as_transmission_roughness_says(self):
         image = fake.texture(fake.image())

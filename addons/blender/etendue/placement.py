@@ -34,7 +34,7 @@ Parts = tuple[Vector, Quaternion, Vector]  # a place, a turn and a scale
 
 
 def shortened(ways: list[Parts]) -> list[Parts]:
-    """Returns the same share of all ways from the one in the middle, on which things are as fast as on the whole ways."""
+    """Returns the same share of all ways from the middle, on which things are as fast as on the whole ways."""
     place, turn, scale = ways[1]
     return [(place.lerp(there[0], STILL), turn.slerp(there[1], STILL), scale.lerp(there[2], STILL)) for there in ways]
 
