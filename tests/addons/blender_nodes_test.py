@@ -513,7 +513,7 @@ class Materials(unittest.TestCase):
                 result = self.material(shader)[1]
                 blended = "M" in result.blended or (result.textures and result.textures["M"].with_alpha)
                 self.assertEqual((bool(blended), result.notes), (not opaque, []))
-            result = self.material(fake.principled(Alpha=(source, "Alpha")))[1]
+            result = self.material(fake.principled(Alpha=(source, "Alpha")), blend="CLIP")[1]
             self.assertEqual(result.opaque, {"M"} if opaque else set())
 
     def test_alpha_that_eevee_clips_is_coverage(self):

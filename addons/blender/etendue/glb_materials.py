@@ -22,7 +22,7 @@ def mend(document: Document, binary: bytes, written: Written, image_bytes: Calla
     remove_bumps(document, written.unbumped)
     binary = add_textures(document, binary, written.textures, image_bytes, uv_set)
     blend(document, written.blended, written.alphas)
-    for material in named(document, written.opaque):
+    for material in named(document, written.opaque - written.blended):
         material.pop("alphaMode", None)
         material.pop("alphaCutoff", None)
     return binary

@@ -330,7 +330,9 @@ class Reader:
         alpha = shader.value("Alpha", default=1.0)
         if alpha is None and textures.has_no_alpha(shader.source("Alpha")):
             alpha = 1.0
-            self.written.opaque |= {self.name} if taken else set()
+            if taken:
+                self.written.opaque.add(self.name)
+                self.written.blended.discard(self.name)
         if taken and (alpha is None or alpha < 1.0):
             self.written.blended.add(self.name)
         self.check_normals(shader, taken)
@@ -393,9 +395,10 @@ class Reader:
             elif value is None and behind(shader.source(*names), "TEX_IMAGE") is None:
                 result[key] = self.number(shader, *names, default=usual)
         color, source = shader.value(*COLOR), shader.source(*COLOR)
-        if source is not None and source.type == "TEX_IMAGE" and source.node.image is not None \
-                and shader.value("Alpha", default=1.0) is not None and textures.is_darkened(source):
-            self.fetch(source)
+        if source is not None and (source.type == "TEX_IMAGE" or textures.is_product("Base Color", source)):
+            image = behind(source, "TEX_IMAGE")
+            if shader.value("Alpha", default=1.0) is not None and textures.is_darkened(image):
+                self.fetch(image)
         if color is not None and shader.is_linked(*COLOR):
             result["base_color"] = clamped(color)
         elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", *VERTICES) is None:
