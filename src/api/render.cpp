@@ -57,7 +57,7 @@ Picture render(Scene scene, const RenderControl& control) {
         auto state = std::make_unique<Picture::State>(Picture::State{
             .image = {}, .colors = ColorConfig::from_environment(), .inputs = {}, .messages = {}, .layers = {}});
         SceneDesc description = std::move(scene.state_->scene);
-        state->inputs = description.inputs;
+        state->inputs = description.files_to_keep();
 
         ProblemList problems;
         const std::vector<std::string> to_choose = replace_auto(description.settings);

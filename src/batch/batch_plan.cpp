@@ -184,6 +184,10 @@ PlanTotals totals(const BatchPlan& plan) {
     PlanTotals sum;
     for (const PlannedUnit& unit : plan) {
         if (!unit.is_stale()) continue;
+        if (unit.is_elsewhere) {
+            ++sum.elsewhere;
+            continue;
+        }
         ++sum.stale;
         if (!unit.error.empty())
             ++sum.failing;

@@ -66,9 +66,10 @@ void arrange(BatchPlan& plan, BatchOrder order);
 /// Sums over the stale images of a plan.
 struct PlanTotals {
     std::size_t stale = 0;
-    std::size_t failing = 0;  ///< stale images that cannot be rendered
-    std::size_t unknown = 0;  ///< stale images that can be, without an estimate
-    double seconds = 0.0;     ///< seconds of those with one
+    std::size_t elsewhere = 0;  ///< images that another batch renders, which are none of the others here
+    std::size_t failing = 0;    ///< stale images that cannot be rendered
+    std::size_t unknown = 0;    ///< stale images that can be, without an estimate
+    double seconds = 0.0;       ///< seconds of those with one
 };
 [[nodiscard]] PlanTotals totals(const BatchPlan& plan);
 

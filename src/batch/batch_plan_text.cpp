@@ -44,10 +44,13 @@ std::string failing(const BatchPlan& plan) {
 /// "3 of 5 images to render, about 2:10".
 std::string counted(const BatchPlan& plan) {
     const PlanTotals sum = totals(plan);
-    if (sum.stale == 0) return images(plan.size()) + ", all up to date";
+    const std::string elsewhere =
+        sum.elsewhere > 0 ? fmt::format("; {} rendered elsewhere", sum.elsewhere) : std::string();
+    if (sum.stale == 0)
+        return images(plan.size()) + (sum.elsewhere > 0 ? ", none to render" : ", all up to date") + elsewhere;
     std::string text = fmt::format("{} of {} to render", sum.stale, images(plan.size()));
     if (const std::string time = format_time(sum); !time.empty()) text += ", " + time;
-    return text;
+    return text + elsewhere;
 }
 
 /// Holds the texts of one row, which are as wide as the widest of their column.
@@ -93,7 +96,7 @@ std::string failures(const BatchPlan& plan) {
     using Failure = std::pair<std::string, std::string>;  // scene and error
     std::vector<std::pair<Failure, std::size_t>> failures;
     for (const PlannedUnit& unit : plan) {
-        if (!unit.is_stale() || unit.error.empty()) continue;
+        if (!unit.is_stale() || unit.is_elsewhere || unit.error.empty()) continue;
         const Failure failure{unit.task.job.scene.string(), unit.error};
         auto found = std::ranges::find(failures, failure, &std::pair<Failure, std::size_t>::first);
         if (found == failures.end()) found = failures.insert(failures.end(), {failure, 0});
@@ -133,12 +136,11 @@ std::string to_json(const BatchPlan& plan) {
                          {"estimated_seconds", unit.estimated_seconds ? Json(*unit.estimated_seconds) : Json()}});
     }
     const PlanTotals sum = totals(plan);
-    const Json json{{"stale", sum.stale},
-                    {"failing", sum.failing},
-                    {"unknown", sum.unknown},
-                    {"known_seconds", sum.seconds},
-                    {"estimated_seconds", sum.unknown == 0 ? Json(sum.seconds) : Json()},
-                    {"units", std::move(units)}};
+    const Json json{
+        {"stale", sum.stale},           {"elsewhere", sum.elsewhere},
+        {"failing", sum.failing},       {"unknown", sum.unknown},
+        {"known_seconds", sum.seconds}, {"estimated_seconds", sum.unknown == 0 ? Json(sum.seconds) : Json()},
+        {"units", std::move(units)}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

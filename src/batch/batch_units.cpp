@@ -167,21 +167,24 @@ constexpr std::array<std::string_view, 4> kPlaceholders{"{scene}", "{variant}", 
 std::string filled(std::string_view pattern, const std::array<std::string, kPlaceholders.size()>& values) {
     constexpr std::string_view kMarks = ".-_";
     std::string name;
+    bool ends_with_value = false;  // whose marks are its own
     while (!pattern.empty()) {
         const auto* const found = std::ranges::find_if(
             kPlaceholders, [&](std::string_view placeholder) { return pattern.starts_with(placeholder); });
         if (found == kPlaceholders.end()) {
             name += pattern.front();
             pattern.remove_prefix(1);
+            ends_with_value = false;
             continue;
         }
         pattern.remove_prefix(found->size());
         const std::string& value = values[static_cast<std::size_t>(found - kPlaceholders.begin())];
         name += value;
+        ends_with_value = ends_with_value || !value.empty();
         if (!value.empty()) continue;
         if (name.empty() || name.back() == '/')
             pattern.remove_prefix(std::min(pattern.find_first_not_of(kMarks), pattern.size()));
-        else if (kMarks.find(name.back()) != std::string_view::npos)
+        else if (!ends_with_value && kMarks.find(name.back()) != std::string_view::npos)
             name.pop_back();
     }
     return name;

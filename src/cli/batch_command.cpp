@@ -101,7 +101,7 @@ void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitC
 
 /// Leaves out all but the images that failed last time, or were not tried as others of their scene had failed. Returns
 /// what to say if there is none.
-std::string keep_failed(BatchTasks& tasks, const LedgerHistory& history, const fs::path& output) {
+std::string keep_failed(BatchTasks& tasks, const LedgerHistory& history, const BatchOptions& options) {
     const auto has_failed = [&](const BatchTask& task) {
         const LedgerHistory::Entry* const last = history.find(task.id);
         return last != nullptr &&
@@ -113,10 +113,13 @@ std::string keep_failed(BatchTasks& tasks, const LedgerHistory& history, const f
     std::move(others, chosen.end(), std::back_inserter(tasks.left_out));
     chosen.erase(others, chosen.end());
     if (!chosen.empty()) return {};
-    if (failed_but_left_out == 0) return fmt::format("--failed: no image in {} failed last time", output.string());
-    return fmt::format(
-        "--failed: no image that --only and --exclude choose failed last time; {} that they leave out did",
-        failed_but_left_out);
+    if (failed_but_left_out == 0)
+        return fmt::format("--failed: no image in {} failed last time", options.output.string());
+    const std::string_view choosing = options.exclude.empty() ? "--only"
+                                      : options.only.empty()  ? "--exclude"
+                                                              : "--only with --exclude";
+    return fmt::format("--failed: no image that {} chooses failed last time; {} that it leaves out did", choosing,
+                       failed_but_left_out);
 }
 
 /// Opens the log, which may lie in the output directory that is still to be made.
@@ -175,7 +178,7 @@ ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live,
     LedgerHistory history(options.output / "ledger.jsonl");
     history.read_new();
     if (options.only_failed) {
-        const std::string none = keep_failed(tasks, history, options.output);
+        const std::string none = keep_failed(tasks, history, options);
         if (!none.empty()) {
             progress->say(none);
             if (options.dry_run) print(options, to_json(BatchPlan()), "");
@@ -341,9 +344,8 @@ void add_attempt_options(CLI::App& command, BatchOptions& options) {
     command
         .add_flag_callback(
             "--keep-sums", [&options] { options.keep_sums_after = 0.0; },
-            "Keep the sums of every finished image in NAME.sums, so that more samples can be added (default: of "
-            "renders "
-            "over a minute)")
+            "Keep the sums of every finished image in NAME.sums, so that more samples can be added (default: only "
+            "of renders over a minute)")
         ->excludes(command.add_flag_callback(
             "--no-keep-sums", [&options] { options.keep_sums_after.reset(); }, "Keep no sums of finished images"));
 }

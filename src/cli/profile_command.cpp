@@ -125,7 +125,7 @@ class LoadedScene {
         report.load.push_back({"files", prepared.load.wall});
         working_space = resolve_colors(prepared.scene.settings, colors);
         settings = prepared.scene.settings;
-        inputs = prepared.scene.inputs;
+        inputs = prepared.scene.files_to_keep();
         if (!arguments.against.empty()) inputs.emplace_back(arguments.against);
         inputs.insert(inputs.end(), arguments.history.begin(), arguments.history.end());
         names = scene_names(prepared.scene);

@@ -37,7 +37,8 @@ std::string text_of_ratio(const RatioInterval& interval, const std::string& why_
 void print(const PairReport& pair) {
     std::array keys{std::pair{"relmse_time", "relMSE x time"},
                     std::pair{"relmse-trimmed_time", "trimmed relMSE x time"}};
-    if (pair.no_interval.contains(keys.front().first)) std::ranges::reverse(keys);
+    if (pair.no_interval.contains(keys.front().first) && !pair.no_interval.contains(keys.back().first))
+        std::ranges::reverse(keys);
     for (const auto& [key, title] : keys)
         if (const auto ratio = pair.ratios.find(key);
             ratio != pair.ratios.end() && std::isfinite(ratio->second.ratio)) {

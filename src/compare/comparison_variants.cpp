@@ -92,7 +92,7 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
         variant.name = request.name;
         variant.options = request.options;
         variant.given = request.request.given;
-        variant.inputs = prepared.scene.inputs;
+        variant.inputs = prepared.scene.files_to_keep();
         variant.settings = prepared.scene.settings;
         variant.light = light_text(prepared.scene);
         const auto same_world = std::ranges::find_if(variants, [&](const Variant& other) {

@@ -141,7 +141,7 @@ RenderStatistics to_statistics(const Json& json) {
     json.at("instances").get_to(s.instances);
     json.at("lights").get_to(s.lights);
     json.at("missing_textures").get_to(s.missing_textures);
-    json.at("camera").get_to(s.camera);
+    s.camera = json.value("camera", "");
     json.at("integrator_choice").get_to(s.integrator_choice);
     json.at("isa").get_to(s.isa);
     json.at("instruction_set").get_to(s.instruction_set);

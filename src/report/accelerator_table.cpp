@@ -45,8 +45,8 @@ std::string to_table(const AcceleratorReport& report) {
     std::string text = aligned(built) + '\n' + aligned(traced);
     text += wrapped(
         "rays/s: of one thread, one ray after the other, the same rays for all; nodes and triangles: boxes or cells "
-        "that a ray goes into, and "
-        "triangles that it is tested against, on average; ties: other triangles than Embree's, as far away; differ: "
+        "that a ray goes into, and triangles that it is tested against, on average; ties: other triangles than "
+        "Embree's, as far away; differ: "
         "other hits than Embree's",
         2);
     if (report.growth.empty()) return text;

@@ -95,7 +95,8 @@ struct BatchReport {
     std::vector<BatchUnit> units{};
 };
 
-/// Sums over the units; those of seconds and rays are of what this batch rendered, without what checkpoints held.
+/// Sums over the units; those of seconds and rays are of what this batch rendered, without what checkpoints held before
+/// an image's last attempt.
 struct BatchTotals {
     std::size_t units = 0;
     std::size_t rendered = 0;

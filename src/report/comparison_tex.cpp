@@ -131,7 +131,9 @@ KeysAndHeads shown_ratios(const ComparisonReport& report) {
                        {"relmse-trimmed", "trimmed"},
                        {"relmse_time", "relMSE $\\times$ time"},
                        {"relmse-trimmed_time", "trimmed $\\times$ time"}};
-    if (std::ranges::any_of(report.pairs, [](const PairReport& pair) { return pair.no_interval.contains("relmse"); }))
+    if (std::ranges::any_of(report.pairs, [](const PairReport& pair) {
+            return pair.no_interval.contains("relmse") && !pair.no_interval.contains("relmse-trimmed");
+        }))
         std::ranges::stable_partition(shown,
                                       [](const auto& ratio) { return ratio.first.starts_with("relmse-trimmed"); });
     return shown;

@@ -209,8 +209,8 @@ std::string busy_machine(const ProfileRun& run) {
     if (!(taken > kMostTaken)) return "";
     return fmt::format(
         "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times, bare Embree's "
-        "rates and efficiency hold but for what others take of the caches; seconds of stages, rays per second of the "
-        "renderer and all else by the clock do not",
+        "rates and efficiency still hold, except that others use the caches too; seconds of stages, rays per second "
+        "of the renderer and all else by the clock do not",
         run.integrator, run.threads, human_percent(taken));
 }
 

@@ -55,9 +55,17 @@ struct SceneDesc {
     std::vector<ExtrasDesc> extras;
     RenderSettings settings;
 
-    std::vector<std::string> extensions_used;     ///< by the file and understood here
-    std::vector<std::string> extensions_ignored;  ///< by the file, not understood here and not required
-    std::vector<std::filesystem::path> inputs;    ///< every file that was or will be read
+    std::vector<std::string> extensions_used;           ///< by the file and understood here
+    std::vector<std::string> extensions_ignored;        ///< by the file, not understood here and not required
+    std::vector<std::filesystem::path> inputs;          ///< every file that was or will be read
+    std::vector<std::filesystem::path> images_of_file;  ///< images that the file names, shown or not
+
+    /// Returns the files that no output may replace: inputs, and images that nothing shows.
+    [[nodiscard]] std::vector<std::filesystem::path> files_to_keep() const {
+        std::vector<std::filesystem::path> files = inputs;
+        files.insert(files.end(), images_of_file.begin(), images_of_file.end());
+        return files;
+    }
 };
 
 /// Everything that is wrong with `scene`: handles out of range, arrays of different lengths, non-finite numbers, values

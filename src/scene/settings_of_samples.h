@@ -70,8 +70,9 @@ inline constexpr std::array kSampleSettings{
             .option = "--robust",
             .type = Form{kRobustForm, "^(mean|mon:([3579]|[12][13579]|31))$", parses<parse_robust>},
             .decides = Decides::Sums,
-            .help = "`mon:N` splits the samples of a pixel into N groups and takes the median of their means. That "
-                    "removes fireflies; with few samples the image is too dark",
+            .help =
+                "`mean`, or `mon:N`: split the samples of a pixel into N groups and take the median of their means. "
+                "That removes a few fireflies; with few samples the image is too dark",
             .page = "fireflies.md",
             .place = parsed_at<parse_robust, robust_text>([](auto& s) -> auto& { return s.robust_buckets; })},
     Setting{.pointer = "/brightest",

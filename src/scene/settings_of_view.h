@@ -74,8 +74,8 @@ inline constexpr std::array kViewSettings{
             .type = RealNumber{{.min = 0.0, .max = kMostSide}, true},
             .decides = Decides::Window,
             .unit = "pixels",
-            .help = "Render this many extra pixels at each edge. The EXR stores them outside its display window. Below "
-                    "1, a share of the longer side",
+            .help = "Render this many extra pixels at each edge. The EXR stores them outside its display window. A "
+                    "number below 1 is a share of the longer side",
             .page = "colour.md#overscan",
             .place = at([](auto& s) -> auto& { return s.film.overscan; })},
     Setting{.pointer = "/camera",

@@ -73,7 +73,7 @@ void check_strategies(const PlannedOutput& planned) {
     const std::filesystem::path& strategies = planned.request.strategies.output;
     const OutputPaths pyramid = OutputPaths::beside(strategies);
     require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()), std::array{pyramid.exr, pyramid.png},
-                        planned.scene.inputs);
+                        planned.scene.files_to_keep());
     require_all_writable(pyramid);
     require_strategies(planned.scene.settings, {"--strategies-image", {}});
     check_strategies_request(planned.request.strategies, paths_of(planned), planned.scene.settings, planned.options,
@@ -87,7 +87,7 @@ void check_outputs(const PlannedOutput& planned) {
     const std::vector<std::string> layers =
         layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
     require_inputs_kept(fmt::format("--output {}", output.string()), files_of_image(output, layers),
-                        planned.scene.inputs);
+                        planned.scene.files_to_keep());
     if (!is_partial(output)) require_no_settings(paths_of(planned).json, planned.scene.directory);
     if (is_partial(output)) {
         if (intersection(planned.options.window, planned.options.splat_window) != planned.options.window)

@@ -50,14 +50,14 @@ struct MisContext {
 struct SubpathDensities {
     double a = 0.0;
     double b = 0.0;
-    double merge_a = 0.0;    ///< eta at the vertex that merges, otherwise 0
+    float merge_a = 0.0f;    ///< eta at the vertex that merges, otherwise 0
+    float own_merge = 0.0f;  ///< eta at the vertex where all vertices merge, otherwise 0
     double merge_b = 0.0;    ///< b of the merge at vertices after that one
-    double own_merge = 0.0;  ///< eta at the vertex where all vertices merge, otherwise 0
 
     /// Returns the sum over the strategies with fewer vertices on this side, but for the raised density per area with
     /// which the other side makes this vertex. `turning_back` is q.
     [[nodiscard]] double fewer(const Raised& raised, double turning_back) const {
-        return own_merge + fewer_without_own_merge(raised, turning_back);
+        return static_cast<double>(own_merge) + fewer_without_own_merge(raised, turning_back);
     }
     /// Returns `fewer` without the merge at the vertex itself.
     [[nodiscard]] double fewer_without_own_merge(const Raised& raised, double turning_back) const {
@@ -65,7 +65,7 @@ struct SubpathDensities {
     }
     /// Returns what the merge adds to `fewer` on paths whose light has come by a delta.
     [[nodiscard]] double merged(const Raised& raised, double turning_back) const {
-        return merge_a + merge_b * raised(turning_back);
+        return static_cast<double>(merge_a) + merge_b * raised(turning_back);
     }
 };
 
@@ -207,7 +207,7 @@ struct ArrivalForMerging {
 /// that stops the share `opacity`.
 inline void count_merge(const MisContext& mis, SubpathEnd end, const Vec3f& position, float opacity,
                         SubpathDensities& arrived) {
-    const double expected = mis.raised(mis.merging.expected(position, opacity));
+    const auto expected = static_cast<float>(mis.raised(mis.merging.expected(position, opacity)));
     if (mis.merging.at == MergeAt::Everywhere)
         arrived.own_merge = expected;
     else if (end == SubpathEnd::AtEye)

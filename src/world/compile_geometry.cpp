@@ -273,6 +273,7 @@ void bound_instances(const ThreadPool& threads, WorldData& data) {
     std::vector<Bounds> local_bounds(data.geometries.size());
     threads.parallel_for(data.geometries.size(),
                          [&](std::size_t g, int) { local_bounds[g] = bounds_of(data.geometries[g]); });
+    data.size_of_slot.reserve(data.light_of_slot.size());
     for (const Instance& instance : data.instances) {
         const std::span<const Mat4f> here(&instance.to_world, 1);
         extend_bounds(instance, instance.motion == kNone ? here : data.motions[instance.motion], local_bounds,

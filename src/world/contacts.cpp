@@ -24,7 +24,8 @@ const Material& material_of(const WorldData& data, const Hit& hit) {
 /// longer rays are, even where the surface lies in a plane through zero. Who is several times a mesh's size away from
 /// it need not tell it from what lies on it.
 float rounding_of(const WorldData& data, std::uint32_t instance, std::uint32_t geometry) {
-    return 0.5f * kPositionError * data.size_of_slot[slot_of(data, instance, geometry)];
+    constexpr float kLargestSize = 64.0f;  // metres; larger meshes, as of a whole town, are seen from within
+    return 0.5f * kPositionError * std::min(kLargestSize, data.size_of_slot[slot_of(data, instance, geometry)]);
 }
 
 ContactFace face_at(const WorldData& data, const Hit& hit) {

@@ -51,7 +51,7 @@ WorldStatistics World::statistics() const {
     s.instances = data.instances.size();
     s.lights = data.lights.size();
     s.light_bytes = parts_->emitters.choice().bytes() + parts_->lights.tree().bytes() +
-                    vector_bytes(data.lights, data.emitter_of_light, data.light_of_slot);
+                    vector_bytes(data.lights, data.emitter_of_light, data.light_of_slot, data.size_of_slot);
     for (const Light& light : data.lights) s.light_bytes += light_bytes(light);
     s.isa = data.bvh->instruction_set();
     s.bvh_bytes = data.bvh->bytes() + (data.clear_surfaces ? data.clear_surfaces->bytes() : 0) +

@@ -341,9 +341,8 @@ TEST_F(Batch, MakesWhatIsChosenAndTellsOfItWhereItIsAsked) {
     EXPECT_EQ(json::parse(run({"--failed", "--only", "a", "--json"}).out)["units"].size(), 0u);
     EXPECT_EQ(json::parse(run({"--failed", "--only", "a", "--json", "--dry-run"}).out)["units"].size(), 0u);
     const Names named{"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--failed", "--only", "a"};
-    EXPECT_NE(
-        run(named).err.find("no image that --only and --exclude choose failed last time; 1 that they leave out did"),
-        std::string::npos);
+    EXPECT_NE(run(named).err.find("no image that --only chooses failed last time; 1 that it leaves out did"),
+              std::string::npos);
     // What is left out stays in the report.
     EXPECT_EQ(run({"--cameras", "all", "--no-png", "--name", "{scene}/{camera}", "--only", "a"}).exit_code, 0);
     json report = json::parse(read_file(work_ / "out/report.json"));

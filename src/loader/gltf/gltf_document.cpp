@@ -171,18 +171,18 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
     document.erase("images");
 }
 
-/// Lists the files of images among the inputs, those that nothing shows, too: no output may replace them.
+/// Lists the files of images, those that nothing shows, too: no output may replace them.
 void list_images(GltfDocument& result) {
-    std::set<std::filesystem::path> listed(result.inputs.begin(), result.inputs.end());
+    std::set<std::filesystem::path> listed;
     for (const GltfImage& image : result.images) {
         if (image.uri.empty() || is_data_uri(image.uri)) continue;
         try {
-            const std::filesystem::path file = resolve_uri(result.directory, image.uri);
-            if (listed.insert(file).second) result.inputs.push_back(file);
+            listed.insert(resolve_uri(result.directory, image.uri));
         } catch (const IoError&) {
             // Whoever shows it says what is wrong.
         }
     }
+    result.images_of_file.assign(listed.begin(), listed.end());
 }
 
 /// Leaves out bounds of accessors that are no lists of numbers, as of exporters that write NaN as null.

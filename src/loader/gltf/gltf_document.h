@@ -67,11 +67,12 @@ struct GltfDocument {
     std::vector<GltfExtras> extras;
     std::string animatable;  ///< JSON of what animations point to; empty if none does
     std::filesystem::path directory;
-    std::string file;                             ///< for messages
-    std::uint64_t size = 0;                       ///< size of the file, bytes
-    std::vector<std::string> extensions_used;     ///< and supported
-    std::vector<std::string> extensions_ignored;  ///< used, not supported, not required
-    std::vector<std::filesystem::path> inputs;    ///< the file and the buffers it names
+    std::string file;                                   ///< for messages
+    std::uint64_t size = 0;                             ///< size of the file, bytes
+    std::vector<std::string> extensions_used;           ///< and supported
+    std::vector<std::string> extensions_ignored;        ///< used, not supported, not required
+    std::vector<std::filesystem::path> inputs;          ///< the file and the buffers it names
+    std::vector<std::filesystem::path> images_of_file;  ///< files of images, shown or not
     AbsentBuffers absent_buffers;
 
     [[nodiscard]] SourceLocation at(std::string pointer) const { return {file, std::move(pointer)}; }

@@ -62,6 +62,7 @@ SweptSpace GltfLoader::load(const std::filesystem::path& file, const LoadOptions
     scene.extensions_used = document.extensions_used;
     scene.extensions_ignored = document.extensions_ignored;
     scene.inputs.insert(scene.inputs.end(), document.inputs.begin(), document.inputs.end());
+    scene.images_of_file = document.images_of_file;
     AccessorReader accessors(document, problems);
     for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
     std::optional<AnimationSampler> sampler;

@@ -34,17 +34,16 @@ struct PathVertex {
     MergePlace merging{};
     std::uint32_t slot = 0;  ///< which sample
     SubpathDensities densities{};
-    WordRange words{};        ///< words of the subpath as it arrives
-    int index = 1;            ///< vertices before it
-    int next_edges = 1;       ///< edges of the path when a ray from here has hit; media add none
-    std::uint16_t label = 0;  ///< label of the material, for words
-    // Bits, so that a vertex fills four cache lines.
-    bool is_dispersed : 1 = false;        ///< light of other wavelengths would not be here, or would not scatter so
-    bool is_connectible : 1 = true;       ///< false if all it does are deltas
-    bool is_after_delta : 1 = false;      ///< the subpath has scattered by a delta, or passed a hidden boundary
-    bool is_reached_directly : 1 = true;  ///< false if boundaries that other bodies hide lie before it
-    bool is_seen_directly : 1 = true;     ///< nothing but deltas lie between the eye and it
-    bool lights_camera : 1 = true;        ///< light that leaves it straight for the camera arrives there
+    WordRange words{};                ///< words of the subpath as it arrives
+    int index = 1;                    ///< vertices before it
+    int next_edges = 1;               ///< edges of the path when a ray from here has hit; media add none
+    std::uint16_t label = 0;          ///< label of the material, for words
+    bool is_dispersed = false;        ///< light of other wavelengths would not be here, or would not scatter so
+    bool is_connectible = true;       ///< false if all it does are deltas
+    bool is_after_delta = false;      ///< the subpath has scattered by a delta, or passed a hidden boundary
+    bool is_reached_directly = true;  ///< false if boundaries that other bodies hide lie before it
+    bool is_seen_directly = true;     ///< nothing but deltas lie between the eye and it
+    bool lights_camera = true;        ///< light that leaves it straight for the camera arrives there
 
     /// False in a medium.
     [[nodiscard]] bool is_on_surface() const {

@@ -102,7 +102,7 @@ TEST_P(DiffuseConnectionsIn, JoinSubpathsAsOneByOne) {
         auto lights = make_ends(TransportMode::Importance);
         for (std::size_t l = 0; l < kCount; ++l) {
             const double merged = 0.1 * static_cast<double>(l % 5);
-            eyes[l].vertex.densities.merge_a = merged;
+            eyes[l].vertex.densities.merge_a = static_cast<float>(merged);
             lights[l].vertex.is_after_delta = l % 2 == 0;
             lanes.eye.set(l, eyes[l].end);
             lanes.light.set(l, lights[l].end);

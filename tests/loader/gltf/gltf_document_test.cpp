@@ -117,13 +117,15 @@ TEST(GltfDocument, AcceptsBuffersThatAreRoundedUpAndBoundsThatAreNoNumbers) {
     EXPECT_FALSE(builder.load().problems.has_errors());
 }
 
-TEST(GltfDocument, FilesOfImagesAreInputsWhetherOrNotTheyAreShown) {
+TEST(GltfDocument, FilesOfImagesAreKeptWhetherOrNotTheyAreShown) {
     const TempDir dir;
     GltfBuilder builder = triangle();
     builder.json["images"] = {{{"uri", "unused.png"}}, {{"uri", "unused.png"}}, {{"uri", "missing.png"}}};
     builder.write(dir);
     dir.write("unused.png", "not even an image");
-    EXPECT_EQ(inspect_scene(dir.path() / "scene.gltf").scene.inputs.size(), 3u);
+    const SceneDesc scene = inspect_scene(dir.path() / "scene.gltf").scene;
+    EXPECT_EQ(scene.inputs.size(), 2u) << "what nothing shows is not read";
+    EXPECT_EQ(scene.files_to_keep().size(), 3u);
 }
 
 TEST(GltfDocument, ArraysAndScalarsAreNoDocument) {
