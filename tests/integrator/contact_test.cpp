@@ -110,17 +110,39 @@ TEST(Contact, AStackOfThreeLosslessSlabsDoesNotShow) {
     }
 }
 
+/// Both as one mesh.
+PrimitiveDesc joined(PrimitiveDesc mesh, const PrimitiveDesc& other) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
+    return mesh;
+}
+
 TEST(Contact, LosslessSlabsOfOneMeshThatTouchDoNotShow) {
     for (const Placing& placing : placings()) {
-        PrimitiveDesc both = box({-1.0f, -1.0f, -0.3f}, {1.0f, 1.0f, 0.0f});
-        const PrimitiveDesc other = box({-0.7f, -0.6f, 0.0f}, {0.9f, 1.2f, 0.4f});
-        const auto first = static_cast<std::uint32_t>(both.positions.size());
-        both.positions.insert(both.positions.end(), other.positions.begin(), other.positions.end());
-        for (const auto& [a, b, c] : other.triangles) both.triangles.push_back({a + first, b + first, c + first});
         SceneDesc scene;
-        add(scene, both, touching_glass(1.5f), placing.to_world);
+        add(scene,
+            joined(box({-1.0f, -1.0f, -0.3f}, {1.0f, 1.0f, 0.0f}), box({-0.7f, -0.6f, 0.0f}, {0.9f, 1.2f, 0.4f})),
+            touching_glass(1.5f), placing.to_world);
         expect_white(scene, placing, "one mesh");
     }
+}
+
+// The two faces of a window do not touch, however large the mesh is that it belongs to.
+TEST(Contact, AWindowOfAWholeTownIsSeen) {
+    const PrimitiveDesc window = box({-1.0f, -1.0f, -0.006f}, {1.0f, 1.0f, 0.0f});
+    const MaterialDesc glass =
+        touching_glass(1.5f, {.closed = true, .attenuation_color = Rgb(0.5f), .attenuation_distance = 0.006f});
+    const auto seen = [&](const PrimitiveDesc& mesh) {
+        SceneDesc scene;
+        set_environment(scene);
+        add(scene, mesh, glass);
+        look(scene, {0.0f, 0.0f, 2.0f}, {0.0f, 0.0f, -1.0f}, 0.3f);
+        return placed_mean(scene, "path", kAllBounces, 16).g;
+    };
+    const float alone = seen(window);
+    EXPECT_LT(alone, 0.6f);
+    EXPECT_NEAR(seen(joined(window, box({5000.0f, 0.0f, 0.0f}, {5001.0f, 1.0f, 1.0f}))), alone, 0.02f);
 }
 
 TEST(Contact, ALosslessCubeOnAWhiteTableDoesNotShow) {
