@@ -219,7 +219,8 @@ TEST_F(Continuation, FallsBackToThePreviousCheckpoint) {
     EXPECT_NE(fallen.err.find("a.checkpoint is damaged"), std::string::npos) << fallen.err;
     EXPECT_NE(fallen.err.find("going on after"), std::string::npos) << fallen.err;
     damage("a.checkpoint");
-    damage("a.checkpoint.previous");
+    // A run that is stopped at once leaves none.
+    if (fs::exists(work_ / "a.checkpoint.previous")) damage("a.checkpoint.previous");
     const ProgramResult lost = run(once);
     EXPECT_EQ(lost.exit_code, 3);
     EXPECT_NE(lost.err.find("no other checkpoint is left"), std::string::npos) << lost.err;

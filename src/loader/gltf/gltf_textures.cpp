@@ -181,15 +181,11 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
         }
         problems_.warning(image.location,
                           fmt::format("{}{}; materials do without it", file_name(source), error.what()));
-        note_input(image.path);
         return unreadable_image(source.name, image.location);
     }
-    note_input(image.path);
+    if (!image.path.empty() && std::ranges::find(scene_.inputs, image.path) == scene_.inputs.end())
+        scene_.inputs.push_back(image.path);
     return image;
-}
-
-void TextureReader::note_input(const std::filesystem::path& file) {
-    if (!file.empty() && std::ranges::find(scene_.inputs, file) == scene_.inputs.end()) scene_.inputs.push_back(file);
 }
 
 bool TextureReader::take_pixels(const GltfImage& source, ImageDesc& image) {

@@ -6,7 +6,6 @@
 #include "loader/gltf/gltf_document.h"
 #include "scene/scene_desc.h"
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <vector>
@@ -30,8 +29,6 @@ class TextureReader {
     [[nodiscard]] Handle<TextureDesc> read_texture(std::size_t index);
     [[nodiscard]] std::optional<ImageDesc> read_image(std::size_t index);
     [[nodiscard]] bool take_pixels(const GltfImage& source, ImageDesc& image);
-    /// Lists `file` among the inputs of the scene unless it is empty or listed already.
-    void note_input(const std::filesystem::path& file);
 
     const GltfDocument& document_;
     AccessorReader& accessors_;
