@@ -214,16 +214,16 @@ class ConvergencePlot {
                   {x_.at(std::pow(10.0, to)), y_.at(std::pow(10.0, y_at(to)))}, kMuted, 0.5, {0.8, 2.4});
     }
 
-    /// Says at the top right what is no mean.
+    /// Says at the top right what is no mean, with room for fonts that are wider than Helvetica.
     void draw_key(const char* slope) {
+        constexpr double kRoom = 16.0;
         const std::size_t seeds = series_.front().errors.front().values.size();
-        plot_.parts.emplace_back(
-            PlotText{.at = {x_.to, 10.0},
-                     .text = fmt::format("{}{}dots: slope {}", seeds > 1 ? "band: least to most, " : "",
-                                         seeds > 2 ? "dashes: median, " : "", slope),
-                     .anchor = PlotAnchor::End,
-                     .size = 0.75 * kFontSize,
-                     .color = kMuted});
+        plot_.parts.emplace_back(PlotText{.at = {x_.to - kRoom, 10.0},
+                                          .text = fmt::format("{}{}dots: slope {}", seeds > 1 ? "band: range, " : "",
+                                                              seeds > 2 ? "dashes: median, " : "", slope),
+                                          .anchor = PlotAnchor::End,
+                                          .size = 0.75 * kFontSize,
+                                          .color = kMuted});
     }
 
     void draw_range(const PlotSeries& series) {
