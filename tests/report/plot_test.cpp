@@ -121,8 +121,7 @@ TEST(ComparisonFiles, PlotsAreOfEachMetricOverTimeAndSamples) {
     EXPECT_EQ(plots[0].name, "relmse-time");
     EXPECT_EQ(plots[1].name, "relmse-spp");
     const std::string svg = to_svg(plots[1].plot);
-    for (const char* text :
-         {">samples per pixel<", ">path_1<", ">50%<", ">relMSE<", ">band: range, dots: slope −1<"})
+    for (const char* text : {">samples per pixel<", ">path_1<", ">50%<", ">relMSE<", ">band: range, dots: slope −1<"})
         EXPECT_NE(svg.find(text), std::string::npos) << text << " in " << svg;
     ComparisonReport nothing = two_variants();
     for (VariantReport& variant : nothing.variants) variant.convergence.clear();
