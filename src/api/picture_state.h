@@ -14,7 +14,7 @@ namespace etendue {
 struct Picture::State {
     ImageDescription image;
     ColorConfig colors;
-    std::vector<std::filesystem::path> inputs;  ///< that the scene was read from
+    std::vector<std::filesystem::path> inputs;  ///< files of the scene that no output may replace
     std::vector<Message> messages;
     std::vector<Layer> layers;  ///< layers of `image`, as the caller sees them
 

@@ -101,20 +101,22 @@ std::optional<ProcessOwner> read_owner(const fs::path& file) {
     }
 }
 
-/// Returns whether `file` was touched not longer ago than `dead_after`. To be called while the mutex is held.
-bool is_young(const fs::path& file, const Mutex& mutex, std::chrono::seconds dead_after) {
+/// Returns whether `file` was touched not longer before `now()`, a timespec, than `dead_after`.
+template <typename Now>
+bool is_young(const fs::path& file, const Now& now, std::chrono::seconds dead_after) {
     // Opened, so that a network file system asks its server.
     const FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};
     if (!opened.is_open() || ::fstat(opened.get(), &status) != 0) return false;
-    return mutex.time_of_files().tv_sec - status.st_mtim.tv_sec <= dead_after.count();
+    return now().tv_sec - status.st_mtim.tv_sec <= dead_after.count();
 }
 
-/// Returns whether the owner of the lock `file` is alive, as far as one can tell. To be called while the mutex is held.
-bool is_held(const std::optional<ProcessOwner>& owner, const fs::path& file, const Mutex& mutex,
+/// Returns whether the owner of the lock `file` is alive at the time `now()`, as far as one can tell.
+template <typename Now>
+bool is_held(const std::optional<ProcessOwner>& owner, const fs::path& file, const Now& now,
              std::chrono::seconds dead_after) {
     const Liveness known = owner ? liveness(*owner) : Liveness::Unknown;
-    return known == Liveness::Unknown ? is_young(file, mutex, dead_after) : known == Liveness::Alive;
+    return known == Liveness::Unknown ? is_young(file, now, dead_after) : known == Liveness::Alive;
 }
 
 /// Creates a file that is on the disk when this returns: another machine would otherwise see a file that says nothing.
@@ -181,7 +183,8 @@ LockAttempt BatchLocks::take(const std::string& image) const {
     fs::create_directory(file.parent_path(), error);
     if (error) throw_errno("make", file.parent_path(), error.value());
     std::optional<ProcessOwner> owner = read_owner(file);
-    if (is_held(owner, file, mutex, times_.dead_after))
+    if (is_held(
+            owner, file, [&] { return mutex.time_of_files(); }, times_.dead_after))
         return {.lock = std::nullopt, .holder = owner.value_or(ProcessOwner{.host = "unknown"})};
     if (::unlink(file.c_str()) != 0 && errno != ENOENT) throw_errno("remove", file, errno);
     ProcessOwner self = this_process();
@@ -192,13 +195,13 @@ LockAttempt BatchLocks::take(const std::string& image) const {
 
 std::optional<ProcessOwner> BatchLocks::find_holder(const std::string& image) const {
     const fs::path file = file_of(image);
-    const std::optional<ProcessOwner> owner = read_owner(file);
-    if (!owner) return std::nullopt;
-    std::error_code error;
-    const auto age = fs::file_time_type::clock::now() - fs::last_write_time(file, error);
-    const Liveness known = liveness(*owner);
-    const bool is_held = known == Liveness::Unknown ? !error && age <= times_.dead_after : known == Liveness::Alive;
-    return is_held ? owner : std::nullopt;
+    std::optional<ProcessOwner> owner = read_owner(file);
+    const auto here = [] {
+        timespec now{};
+        ::clock_gettime(CLOCK_REALTIME, &now);
+        return now;
+    };
+    return owner && is_held(owner, file, here, times_.dead_after) ? owner : std::nullopt;
 }
 
 void BatchLocks::tidy() const {
@@ -207,7 +210,9 @@ void BatchLocks::tidy() const {
     std::error_code error;
     for (fs::directory_iterator entry(locks, error), end; !error && entry != end; entry.increment(error)) {
         const std::optional<ProcessOwner> owner = read_owner(entry->path());
-        if (!is_held(owner, entry->path(), mutex, times_.dead_after)) ::unlink(entry->path().c_str());
+        if (!is_held(
+                owner, entry->path(), [&] { return mutex.time_of_files(); }, times_.dead_after))
+            ::unlink(entry->path().c_str());
     }
     // Fails, as it should, if locks are left.
     if (::rmdir(locks.c_str()) != 0 && errno != ENOENT) return;

@@ -147,7 +147,7 @@ class LoadedScene {
     RenderSettings settings;
     std::string working_space;
     SceneHitNames names;
-    std::vector<std::filesystem::path> inputs;  ///< files that are read, earlier profiles among them
+    std::vector<std::filesystem::path> inputs;  ///< files that no output may replace, earlier profiles among them
     std::unique_ptr<const World> world;
 };
 

@@ -38,7 +38,7 @@ struct Variant {
     std::string name{};
     std::string options{};
     std::vector<GivenOption> given{};             ///< options of `render`: its own and those of all variants
-    std::vector<std::filesystem::path> inputs{};  ///< files that its scene was read from
+    std::vector<std::filesystem::path> inputs{};  ///< files of its scene that no output may replace
     RenderSettings settings{};
     RenderOptions sampling{};
     std::unique_ptr<const Integrator> integrator{};

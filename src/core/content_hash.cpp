@@ -53,14 +53,17 @@ std::string content_hex(std::string_view text) {
     return hex(hash.digest());
 }
 
+void require_regular_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+        throw IoError(fmt::format("cannot read {}: it is no regular file", path.string()));
+}
+
 ContentHash::Digest hash_file(const std::filesystem::path& path) {
     const auto fail = [&] {
         throw IoError(fmt::format("cannot read {}: {}", path.string(), system_error_text(errno)));
     };
-    // A pipe would be waited for, and a device read for ever.
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-        throw IoError(fmt::format("cannot read {}: it is no regular file", path.string()));
+    require_regular_file(path);
     std::ifstream file(path, std::ios::binary);
     if (!file) fail();
     ContentHash hash;

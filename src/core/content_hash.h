@@ -37,6 +37,9 @@ class ContentHash {
 /// Returns the digest of `text` as 32 hexadecimal digits.
 [[nodiscard]] std::string content_hex(std::string_view text);
 
+/// Throws IoError if `path` is there and is no regular file: a pipe would be waited for, and a device read for ever.
+void require_regular_file(const std::filesystem::path& path);
+
 /// Returns the digest of the bytes of the file `path`. Throws IoError if the file cannot be read.
 [[nodiscard]] ContentHash::Digest hash_file(const std::filesystem::path& path);
 

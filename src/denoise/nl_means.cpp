@@ -83,6 +83,7 @@ void WindowWeights::compute_offset(const NlMeansGuide& guide, int dx, int dy) {
     const auto terms = static_cast<float>((2 * patch + 1) * (2 * patch + 1) * guide.image.count());
     const PixelRect image{0, 0, guide.image.width(), guide.image.height()};
     const int place = (dy + settings_.radius) * row_stride_ + dx + settings_.radius;
+    const std::size_t size = window_size();
     std::array<float, kDenoiseTileSide> sums;
     for (int y = 0; y < tile_.height(); ++y) {
         sums.fill(0.0f);
@@ -91,8 +92,8 @@ void WindowWeights::compute_offset(const NlMeansGuide& guide, int dx, int dy) {
             for (int x = 0; x < tile_.width(); ++x) sums[static_cast<std::size_t>(x)] += row[x];
         }
         const bool row_inside = tile_.y0 + y + dy >= image.y0 && tile_.y0 + y + dy < image.y1;
-        float* weight = weights_.data() + static_cast<std::size_t>(y) * kDenoiseTileSide * window_size() + place;
-        for (int x = 0; x < tile_.width(); ++x, weight += window_size()) {
+        float* weight = weights_.data() + static_cast<std::size_t>(y) * kDenoiseTileSide * size + place;
+        for (int x = 0; x < tile_.width(); ++x, weight += size) {
             const int qx = tile_.x0 + x + dx;
             const float distance = std::max(0.0f, sums[static_cast<std::size_t>(x)] / terms);
             const bool counts = row_inside && qx >= image.x0 && qx < image.x1 && distance < kNoWeight;

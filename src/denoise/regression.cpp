@@ -3,7 +3,6 @@
 #include "denoise/window_fit.h"
 
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace etendue {

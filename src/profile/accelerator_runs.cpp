@@ -219,6 +219,8 @@ AcceleratorRuns measure_accelerators(const World& world, const std::vector<Accel
                                      const RecordedRays& rays, int width, int height) {
     AcceleratorRuns runs;
     std::vector<std::array<std::vector<TracedChunk>, kRayKinds>> traced;  // by structure
+    std::array<std::size_t, kRayKinds> common;                            // chunks that all so far have traced
+    common.fill(std::numeric_limits<std::size_t>::max() / kChunk);
     for (const AcceleratorKind kind : kinds) {
         const Tracer tracer(world, kind);
         auto& of_structure = traced.emplace_back();
@@ -226,18 +228,19 @@ AcceleratorRuns measure_accelerators(const World& world, const std::vector<Accel
             const auto ray_kind = static_cast<RayKind>(i);
             runs.interrupted = interrupt_requested().load();
             if (runs.interrupted) return runs;
-            of_structure[i] = tracer.trace(rays.of(ray_kind), asks_for_occlusion(ray_kind), true);
+            const std::span<const Ray> of_kind = rays.of(ray_kind);
+            of_structure[i] = tracer.trace(of_kind.first(std::min(of_kind.size(), common[i] * kChunk)),
+                                           asks_for_occlusion(ray_kind), true);
+            common[i] = of_structure[i].size();
         }
         const AcceleratorMeasure& measure = runs.report.measures.emplace_back(tracer.measure());
         if (measure.nodes > 0) runs.visits.push_back(map_visits(world, *tracer.scene(), measure.name, width, height));
     }
     for (std::size_t i = 0; i < kRayKinds; ++i) {
         if (rays.of(static_cast<RayKind>(i)).empty()) continue;
-        std::size_t common = std::numeric_limits<std::size_t>::max();
-        for (const auto& of_structure : traced) common = std::min(common, of_structure[i].size());
         for (std::size_t s = 0; s < kinds.size(); ++s) {
             TracedKind& kind = runs.report.measures[s].kinds.emplace_back();
-            kind = sum_up(std::span(traced[s][i]).first(common), kinds[s]);
+            kind = sum_up(std::span(traced[s][i]).first(common[i]), kinds[s]);
             kind.kind = kRayKindNames[i];
         }
     }

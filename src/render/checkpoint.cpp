@@ -248,9 +248,7 @@ Film get_film(Reader& in) {
 
 /// The size of the file without its hash, which must be right.
 std::uint64_t checked_size(const std::filesystem::path& path) {
-    std::error_code none;
-    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
-        throw IoError(fmt::format("cannot read {}: it is no regular file", path.string()));
+    require_regular_file(path);
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file) throw IoError(fmt::format("cannot read {}", path.string()));
     const auto size = static_cast<std::uint64_t>(file.tellg());

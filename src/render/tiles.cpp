@@ -49,7 +49,7 @@ std::uint32_t pass_size(std::uint32_t first, std::uint32_t end) {
 }
 
 bool begins_pass(std::uint32_t first) {
-    return first < kLargestPass ? first == 0 || std::has_single_bit(first) : first % kLargestPass == 0;
+    return first == 0 || pass_size(first - 1, first + 1) == 1;
 }
 
 bool is_odd_pass(std::uint32_t first) {

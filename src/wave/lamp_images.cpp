@@ -1,6 +1,7 @@
 #include "wave/lamp_images.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -10,8 +11,8 @@ namespace {
 
 /// Returns which region along one axis `pixel` lies in.
 int region_of(int pixel) {
-    static_assert(kLampRegion == 32);
-    return pixel >> 5;
+    static_assert(std::has_single_bit(static_cast<unsigned>(kLampRegion)));
+    return pixel >> std::countr_zero(static_cast<unsigned>(kLampRegion));  // rounds down
 }
 
 /// Returns the columns and rows of regions that cover `rect`.

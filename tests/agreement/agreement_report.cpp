@@ -168,7 +168,7 @@ std::string summary(std::span<const RoomComparison> rooms, double significance) 
 std::string markdown_report(std::span<const RoomComparison> rooms, double significance) {
     std::string text = summary(rooms, significance);
     text += "\nWho is left out, by the letters of the tables:\n\n";
-    for (int i = 1; i <= static_cast<int>(Exclusion::InfiniteVarianceAtLight); ++i) {
+    for (int i = 1; i <= static_cast<int>(Exclusion::NothingMerges); ++i) {
         const auto exclusion = static_cast<Exclusion>(i);
         std::string who;
         for (const std::string_view integrator : matrix_integrators()) {

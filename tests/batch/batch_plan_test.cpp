@@ -178,6 +178,25 @@ TEST_F(BatchPlanTest, IsSummedUp) {
     EXPECT_NE(to_table(plan).find("3 of 4 images to render, about 2:00\n"), std::string::npos) << to_table(plan);
 }
 
+TEST_F(BatchPlanTest, LeavesOutWhatAnotherBatchRenders) {
+    BatchPlan plan(2, unit_);
+    plan[0].reason = "running elsewhere: host:1";
+    plan[0].is_elsewhere = true;
+    plan[0].estimated_seconds = 40.0;
+    plan[0].error = "error: no such file";
+    const std::string alone = to_table(plan);
+    EXPECT_NE(alone.find("\n2 images, none to render; 1 rendered elsewhere\n"), std::string::npos) << alone;
+    plan[1].reason = "never rendered";
+    plan[1].estimated_seconds = 20.0;
+    const std::string table = to_table(plan);
+    EXPECT_NE(table.find("\n1 of 2 images to render, about 0:20; 1 rendered elsewhere\n"), std::string::npos) << table;
+    const json all = json::parse(to_json(plan));
+    EXPECT_EQ(all["elsewhere"], 1);
+    EXPECT_EQ(all["stale"], 1);
+    EXPECT_EQ(all["failing"], 0);
+    EXPECT_EQ(all["estimated_seconds"], 20.0);
+}
+
 TEST_F(BatchPlanTest, TellsWhatWillFailAndWhatIsNotKnown) {
     BatchPlan plan(4, unit_);
     for (PlannedUnit& unit : plan) unit.reason = "never rendered";

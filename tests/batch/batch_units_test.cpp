@@ -109,6 +109,12 @@ TEST_F(BatchUnits, AreNamedAfterThePattern) {
     EXPECT_NO_THROW(check_name_pattern("{scene}/{variant}/{camera}.{frame}"));
 }
 
+TEST_F(BatchUnits, KeepTheMarksOfTheNamesThatThePatternTakes) {
+    write_scene(folder_ / "scenes/take_");
+    options_.name_pattern = "{scene}{frame}";
+    EXPECT_EQ(images(collect()), Names{"out/take_.exr"});
+}
+
 TEST_F(BatchUnits, HaveTheNameOfTheirCameraIfThePatternAsksForIt) {
     write_scene(folder_ / "scenes/a", R"("frames": [3, 3],)");
     options_.name_pattern = "{scene}/{camera}.{frame}";

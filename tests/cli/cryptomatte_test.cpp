@@ -274,7 +274,7 @@ bool succeeds(const std::string& command, const fs::path& output) {
 
 TEST_F(Cryptomatte, IsReadByOpenExrsOwnTools) {
     const fs::path text = work_ / "said.txt";
-    if (!succeeds("command -v exrheader", text)) GTEST_SKIP() << "no exrheader here";
+    if (!succeeds("command -v exrheader", text)) GTEST_SKIP() << "there is no exrheader (Debian: openexr)";
     ASSERT_EQ(render("h.exr", {"--aov", "cryptomatte_asset"}).exit_code, 0);
     ASSERT_TRUE(succeeds(fmt::format("exrheader '{}'", (work_ / "h.exr").string()), text));
     const std::string header = read_file(text);
@@ -300,7 +300,7 @@ TEST_F(Cryptomatte, IsViewedByItsName) {
 // A reader that shares no code with the program.
 TEST_F(Cryptomatte, IsReadByThePythonTool) {
     const fs::path text = work_ / "said.txt";
-    if (!succeeds("command -v python3", text)) GTEST_SKIP() << "no python3 here";
+    if (!succeeds("command -v python3", text)) GTEST_SKIP() << "there is no python3";
     ASSERT_EQ(render("t.exr", {"--aov", "cryptomatte"}).exit_code, 0);
     const std::string tool =
         fmt::format("python3 '{}/tools/extract_matte' '{}'", ETENDUE_SOURCE_DIR, (work_ / "t.exr").string());

@@ -15,7 +15,7 @@ class BlenderCases : public testing::Test {
         return std::filesystem::path(ETENDUE_SHARED_ASSETS) / "../cases/blender" / name;
     }
     void SetUp() override {
-        if (!std::filesystem::exists(folder(""))) GTEST_SKIP() << "no " << folder("") << " here";
+        if (!std::filesystem::exists(folder(""))) GTEST_SKIP() << folder("") << " is not there";
     }
 };
 

@@ -125,7 +125,7 @@ double share_within(const std::filesystem::path& file, float degrees) {
 
 TEST(TangentSpace, AgreesWithTheTangentsThatAssetsBring) {
     const std::filesystem::path models = std::filesystem::path(ETENDUE_SHARED_ASSETS) / "models";
-    if (!std::filesystem::exists(models / "FlightHelmet")) GTEST_SKIP() << "no shared assets";
+    if (!std::filesystem::exists(models / "FlightHelmet")) GTEST_SKIP() << "there is no FlightHelmet in " << models;
     EXPECT_EQ(share_within(models / "ClearCoatTest.glb", 1.0f), 1.0);
     // Made by another program, which weighs the triangles around a vertex differently.
     EXPECT_GT(share_within(models / "FlightHelmet", 1.0f), 0.7);

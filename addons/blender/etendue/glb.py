@@ -135,7 +135,7 @@ def set_spots(document: Document, cones: Mapping[str, tuple[float, float]]) -> N
 
 
 def give_all_materials(document: Document) -> None:
-    """Gives what has no material the one that Blender shows then: matte, of an albedo of 0.8. That of glTF is white metal."""
+    """Gives what has no material the one that Blender shows then: diffuse, with an albedo of 0.8. That of glTF is white metal."""
     without = [primitive for mesh in document.get("meshes", []) for primitive in mesh["primitives"] if "material" not in primitive]
     if not without:
         return

@@ -35,12 +35,14 @@ def uv_sets(meshes: Users, written: Written) -> Callable[[str, str], int]:
 
 def uv_maps_before(shaders: Iterable[Any]) -> Iterator[str]:
     """Yields the names of the UV maps that lay images of shaders, and of those whose tangents turn their normals."""
-    lobes = (shader for shader in shaders if shader.type not in ("MIX_SHADER", "ADD_SHADER"))
-    for seen in (seen for shader in lobes for seen in all_behind(shader)):
-        if seen.type == "TEX_IMAGE":
-            yield laid(seen, False).uv_map
-        elif seen.type == "NORMAL_MAP":
-            yield getattr(seen.node, "uv_map", "")
+    for shader in shaders:
+        if shader.type in ("MIX_SHADER", "ADD_SHADER"):
+            continue
+        for seen in all_behind(shader):
+            if seen.type == "TEX_IMAGE":
+                yield laid(seen, False).uv_map
+            elif seen.type == "NORMAL_MAP":
+                yield getattr(seen.node, "uv_map", "")
 
 
 def missing(meshes: Users, written: Written) -> Iterator[str]:

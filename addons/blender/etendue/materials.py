@@ -27,7 +27,7 @@ def clamped(color: Any) -> list[float]:
     return [min(max(channel, 0.0), 1.0) for channel in color]
 
 
-def matte(albedo: list[float]) -> Document:
+def diffuse_of(albedo: list[float]) -> Document:
     return {"diffuse": {"albedo": albedo}}
 
 
@@ -37,7 +37,7 @@ def material(material: Any, closed: bool, written: Written, whole: bool = False,
     `closed`: all meshes that have it bound a volume; `whole`: the exporter has not seen the material; `name`: that in the
     file, where it is another; `with_groups`: the exporter sees what groups have."""
     if not material.use_nodes or material.node_tree is None:
-        return matte(clamped(list(material.diffuse_color)[:3]))
+        return diffuse_of(clamped(list(material.diffuse_color)[:3]))
     output = active_output(material.node_tree, "OUTPUT_MATERIAL")
     seen = {} if whole else exported(material.node_tree, with_groups)
     reader = Reader(name or material.name, closed, written, seen)
@@ -107,7 +107,7 @@ class Reader:
 
     def nothing(self, why: str) -> Document:
         self.note(f"{why}, and is black as in Cycles")
-        return matte(BLACK)
+        return diffuse_of(BLACK)
 
     def notes_of_textures(self, shader: Seen) -> None:
         exported = [self.exported[kind] for kind in self.kept]
@@ -119,7 +119,7 @@ class Reader:
     def surface(self, shader: Seen | None) -> Document:
         """The entry for a shader of any kind."""
         if shader is None:
-            return matte(BLACK)
+            return diffuse_of(BLACK)
         known = {"BSDF_PRINCIPLED": self.principled, "EMISSION": self.emission, "MIX_SHADER": self.mix,
                  "ADD_SHADER": self.add, "BSDF_TRANSPARENT": self.transparent, "BSDF_DIFFUSE": self.diffuse,
                  "BSDF_TRANSLUCENT": self.translucent, "BSDF_GLASS": self.glass, "BSDF_REFRACTION": self.glass,
@@ -127,8 +127,8 @@ class Reader:
         self.written.shown.setdefault(self.name, []).append(shader)
         if shader.type in known:
             return known[shader.type](shader)
-        self.note(f"its node '{shader.name}' is not brought over, and shown as a matte surface")
-        return self.lambert(shader) if shader.socket("Color") is not None else matte(GREY)
+        self.note(f"its node '{shader.name}' is not brought over, and shown as a diffuse surface")
+        return self.lambert(shader) if shader.socket("Color") is not None else diffuse_of(GREY)
 
     def mix(self, shader: Seen) -> Document:
         """One of two shaders: with transparency as coverage, with emission as its share of it, else the heavier one."""
@@ -203,11 +203,11 @@ class Reader:
         return GREY
 
     def lambert(self, shader: Seen) -> Document:
-        """A matte surface; where the GLB has its colour, one of glTF's factors, by which that is multiplied."""
+        """A diffuse surface; where the GLB has its colour, one of glTF's factors, by which that is multiplied."""
         color = self.color(shader, "Color")
         if shader.value("Color") is None and color is WHITE:
             return {"base_color": WHITE, "metallic": 0.0, "roughness": 1.0, "specular": 0.0}
-        return matte(color)
+        return diffuse_of(color)
 
     def fetch(self, texture: Seen, with_alpha: bool = False) -> bool:
         """Has the GLB get the image, and returns whether there is one."""
@@ -280,13 +280,13 @@ class Reader:
         if max(color) - min(color) > 0.01:
             self.note(f"the tint of '{shader.name}' is not brought over")
         self.cover(1.0 - sum(color) / 3.0)
-        return matte(BLACK)
+        return diffuse_of(BLACK)
 
     def holdout(self, _: Seen) -> Document:
-        return matte(BLACK) | {"holdout": True}
+        return diffuse_of(BLACK) | {"holdout": True}
 
     def emission(self, shader: Seen) -> Document:
-        return matte(BLACK) | self.shine(shader)
+        return diffuse_of(BLACK) | self.shine(shader)
 
     def lit(self, result: Document, shader: Seen, share: float = 1.0) -> Document:
         """A surface with the light of an Emission in place of its own."""
@@ -319,7 +319,7 @@ class Reader:
         radius, scale = shader.value("Radius"), shader.value("Scale", default=1.0)
         color = shader.value("Color")
         if not self.closed or radius is None or scale is None or color is None:
-            self.note(f"its node '{shader.name}' is brought over on closed meshes without textures, else shown as a matte surface")
+            self.note(f"its node '{shader.name}' is brought over on closed meshes without textures, else shown as a diffuse surface")
             return self.diffuse(shader)
         return body(color, radius, scale, 0.5, 1.4, shader.value("Anisotropy", default=0.0) or 0.0)
 

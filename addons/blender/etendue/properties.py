@@ -10,7 +10,7 @@ INTEGRATORS = (
     ("path", "Path tracing", "From the camera; lights are sampled at every surface"),
     ("bdpt", "Bidirectional", "From the camera and from the lights: light through doors, simple caustics"),
     ("vcm", "Vertex merging", "Bidirectional, with merging: caustics under water, in mirrors and through glass"),
-    ("light", "Light tracing", "From the lights alone: caustics on matte surfaces"),
+    ("light", "Light tracing", "From the lights alone: caustics on diffuse surfaces"),
     ("direct", "Direct light", "One scattering between light and camera"),
     ("naive", "Naive", "From the camera, without sampling lights: slow, and right"),
     ("whitted", "Whitted", "Mirrors, glass and direct light, after Whitted"),
@@ -76,7 +76,7 @@ class EtendueSceneSettings(bpy.types.PropertyGroup):
 class EtendueViewLayerSettings(bpy.types.PropertyGroup):
     use_pass_volume: BoolProperty(name="Volume", description="Passes VolumeDir and VolumeInd")
     use_pass_albedo: BoolProperty(name="Albedo", description="Share of light that surfaces scatter")
-    use_pass_caustics: BoolProperty(name="Caustics", description="Matte surfaces lit through glass or by way of mirrors")
+    use_pass_caustics: BoolProperty(name="Caustics", description="Diffuse surfaces lit through glass or by way of mirrors")
     use_pass_samples: BoolProperty(name="Samples", description="Samples of each pixel")
     layers: StringProperty(name="Layers", description="More layers, such as: key=light:Key; glass=lpe:C T .* L")
 

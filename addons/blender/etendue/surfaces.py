@@ -39,12 +39,16 @@ def is_closed(mesh: Any) -> bool:
 
 @dataclass
 class Surface:
-    """Says of the mesh that an object is rendered as whether it bounds a volume, whether it has faces, and which
-    materials they have, in the order of their slots: None for none."""
+    """Says of the mesh that an object is rendered as whether it bounds a volume, and which materials its faces have, in
+    the order of their slots: None for none."""
 
     closed: bool
-    has_faces: bool
     parts: list[Any]
+
+    @property
+    def has_faces(self) -> bool:
+        """Returns whether the mesh has faces."""
+        return bool(self.parts)
 
 
 def is_copy(mesh: Any, of: Any) -> bool:
@@ -77,7 +81,7 @@ def surfaces_of(items: dict[Any, Any]) -> dict[Any, Surface]:
             continue
         mesh = item.data if item.type == "MESH" else item.to_mesh()
         if mesh is not None:
-            found[original] = Surface(is_closed(mesh), len(mesh.polygons) > 0, parts_of(item, mesh))
+            found[original] = Surface(is_closed(mesh), parts_of(item, mesh))
         if item.type != "MESH":
             item.to_mesh_clear()
     return found

@@ -27,15 +27,16 @@ def notes(shader: Seen, own: Texture | None, exported: Collection[tuple[str, ...
     """Says what is lost of all that leads to a shader: nodes that change colours, and images that lie otherwise. `own` is
     the image that the add-on itself puts into the file, `exported` the places of shaders that the exporter reads."""
     unread: list[str] = []
-    products = {place(source) for seen in all_behind(shader) if place(seen) in exported
+    nodes = list(all_behind(shader))
+    products = {place(source) for seen in nodes if place(seen) in exported
                 for name, source in seen.sources() if is_product(name, source)}
-    for seen in all_behind(shader):
+    for seen in nodes:
         if seen.type == "TEX_IMAGE":
             yield from notes_of_image(seen)
         elif not (seen.type.startswith(SHADERS) or seen.type in READ or place(seen) in products
                   or seen.constant() is not None or seen.name in unread):
             unread.append(seen.name)
-    for seen in all_behind(shader):
+    for seen in nodes:
         if seen.type.startswith(SHADERS) and seen.type not in ("MIX_SHADER", "ADD_SHADER"):
             yield from notes_of_spaces(seen, own)
     if unread:

@@ -7,7 +7,6 @@
 #include "transport/connecting_ray.h"
 #include "transport/direct_light.h"
 #include "transport/shadow_catcher.h"
-#include "wave/camera_wave.h"
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 #include "core/vector_bytes.h"
 #include "transport/roulette.h"
 #include "wave/aov/first_hits.h"
+#include "wave/camera_wave.h"
 #include "wave/ray_batch.h"
 
 #include <algorithm>
