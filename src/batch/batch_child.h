@@ -43,7 +43,7 @@ struct ChildProgress {
 /// Holds what another process found out about an image that is to be rendered.
 struct SceneLook {
     std::optional<double> seconds{};              ///< seconds that the image will take; none if nobody tried
-    double start_seconds = 0.0;                   ///< those of them before its first sample
+    double start_seconds = 0.0;                   ///< part of `seconds` before the first sample
     std::optional<std::uint64_t> memory_bytes{};  ///< bytes that its process will need; none if nobody knows
     ImageOutline outline{};                       ///< outline of the image; empty if it was not found out
     std::string error{};  ///< why the image cannot be rendered, of any number of lines; empty if it can

@@ -71,8 +71,8 @@ class BatchLocks {
     /// Tries to get the lock of `image`, a path below the output directory. Throws IoError.
     [[nodiscard]] LockAttempt take(const std::string& image) const;
 
-    /// Returns who makes `image` now, if anybody does. It writes nothing and takes no lock: an owner on another machine
-    /// is judged by the clock of this one.
+    /// Returns the process that makes `image` now, if one does. The call writes nothing and takes no lock, so that this
+    /// machine's clock decides whether an owner on another machine is alive.
     [[nodiscard]] std::optional<ProcessOwner> find_holder(const std::string& image) const;
 
     /// Removes what dead owners left, and the folder if nothing is left in it then. Throws IoError.

@@ -132,7 +132,7 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
         examine(unit, options, options.force, history);
         if (!unit.is_stale()) continue;
         if (const auto holder = options.dry_run ? locks.find_holder(unit.task.id) : std::nullopt) {
-            unit.is_elsewhere = true;
+            unit.is_running_elsewhere = true;
             unit.reason = "running elsewhere: " + holder->str();
         }
         if (!looked_at || !are_alike(*looked_at, unit.task.job)) {
@@ -184,7 +184,7 @@ PlanTotals totals(const BatchPlan& plan) {
     PlanTotals sum;
     for (const PlannedUnit& unit : plan) {
         if (!unit.is_stale()) continue;
-        if (unit.is_elsewhere) {
+        if (unit.is_running_elsewhere) {
             ++sum.elsewhere;
             continue;
         }

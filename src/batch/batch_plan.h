@@ -36,7 +36,7 @@ struct PlannedUnit {
     FileStamp seen{};                             ///< the statistics beside the image, when they were looked at
     ImageOutline outline{};                       ///< outline of the image, as far as it was found out
     std::string error{};  ///< why it cannot be rendered, of any number of lines; empty if nothing is known to be wrong
-    bool is_elsewhere = false;  ///< a dry run has seen that another batch process renders it
+    bool is_running_elsewhere = false;  ///< a dry run has seen that another batch process renders it
 
     [[nodiscard]] bool is_stale() const { return !reason.empty(); }
 };
@@ -54,9 +54,9 @@ void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const L
 /// Told what is being looked at, the part of the plan that is made, and of how many images it will be.
 using PlanProgress = std::function<void(const std::string& what, const BatchPlan& so_far, std::size_t of)>;
 
-/// Examines all images, for a dry run also whether other batch processes render them. Lets the first stale frame of
-/// each scene, variant and camera be probed, or, for a dry run without probes, inspected: the other frames are taken to
-/// cost the same and to fail if it fails. Ends early if it is interrupted.
+/// Examines all images and, for a dry run, finds out which of them other batch processes render. Probes the first stale
+/// frame of each scene, variant and camera, or, for a dry run without probes, inspects it: the other frames are taken
+/// to cost as much as that frame and to fail if it fails. Ends early if the batch is interrupted.
 [[nodiscard]] BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options,
                                   const LedgerHistory& history, const PlanProgress& progress);
 
@@ -66,10 +66,10 @@ void arrange(BatchPlan& plan, BatchOrder order);
 /// Sums over the stale images of a plan.
 struct PlanTotals {
     std::size_t stale = 0;
-    std::size_t elsewhere = 0;  ///< images that another batch renders, which are none of the others here
+    std::size_t elsewhere = 0;  ///< images that another batch renders, in none of the other numbers
     std::size_t failing = 0;    ///< stale images that cannot be rendered
-    std::size_t unknown = 0;    ///< stale images that can be, without an estimate
-    double seconds = 0.0;       ///< seconds of those with one
+    std::size_t unknown = 0;    ///< stale images without an error or an estimate
+    double seconds = 0.0;       ///< seconds of all stale images with an estimate
 };
 [[nodiscard]] PlanTotals totals(const BatchPlan& plan);
 

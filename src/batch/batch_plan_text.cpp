@@ -60,10 +60,10 @@ PlanRow row_of(const PlannedUnit& unit) {
     const ImageOutline& outline = unit.outline;
     const auto known = [](bool is_known, std::string text) { return is_known ? std::move(text) : std::string("-"); };
     return {shown_text(unit.task.job.name),
-            !unit.is_stale()      ? "up to date"
-            : unit.is_elsewhere   ? "wait"
-            : !unit.error.empty() ? "will fail"
-                                  : "render",
+            !unit.is_stale()            ? "up to date"
+            : unit.is_running_elsewhere ? "wait"
+            : !unit.error.empty()       ? "will fail"
+                                        : "render",
             unit.is_stale() ? shown_text(unit.reason) : "-",
             known(outline.width > 0, fmt::format("{}x{}", outline.width, outline.height)),
             known(outline.spp > 0, fmt::format("{}", outline.spp)),
@@ -96,7 +96,7 @@ std::string failures(const BatchPlan& plan) {
     using Failure = std::pair<std::string, std::string>;  // scene and error
     std::vector<std::pair<Failure, std::size_t>> failures;
     for (const PlannedUnit& unit : plan) {
-        if (!unit.is_stale() || unit.is_elsewhere || unit.error.empty()) continue;
+        if (!unit.is_stale() || unit.is_running_elsewhere || unit.error.empty()) continue;
         const Failure failure{unit.task.job.scene.string(), unit.error};
         auto found = std::ranges::find(failures, failure, &std::pair<Failure, std::size_t>::first);
         if (found == failures.end()) found = failures.insert(failures.end(), {failure, 0});
@@ -126,7 +126,7 @@ std::string to_json(const BatchPlan& plan) {
                          {"camera", text_or_null(unit.outline.camera)},
                          {"image", job.output.string()},
                          {"stale", unit.is_stale()},
-                         {"running_elsewhere", unit.is_elsewhere},
+                         {"running_elsewhere", unit.is_running_elsewhere},
                          {"reason", text_or_null(unit.reason)},
                          {"error", text_or_null(unit.error)},
                          {"width", number_or_null(unit.outline.width)},

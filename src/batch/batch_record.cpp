@@ -28,8 +28,8 @@ std::optional<double> expected_seconds(const PlannedUnit& planned) {
     return planned.error.empty() ? planned.estimated_seconds : 0.0;
 }
 
-/// Returns the time that table and page show, and how much of it is older than this attempt; the attempt's own time if
-/// the image does not tell.
+/// Returns the time of the image that the table and the page show, and how much of it is older than this attempt; the
+/// attempt's own time if the image's statistics are missing.
 std::string time_in_words(const BatchUnit& unit, double attempt_seconds) {
     std::string text = format_duration(unit.seconds ? unit.seconds->total() : attempt_seconds);
     if (unit.seconds_before > 0.0) text += fmt::format(", {} of it before", format_duration(unit.seconds_before));

@@ -127,7 +127,7 @@ struct ScenePart {
     std::string label{};           ///< follows the scene's name in what people read: " variant red camera front"
 };
 
-/// Returns " camera front", or " Camera.001" if the name says itself what it is the name of.
+/// Returns `what` and `name`, " camera front", or only `name`, " Camera.001", if it begins with `what`.
 std::string labelled(const std::string& what, const std::string& name) {
     const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
     const bool says_itself = std::ranges::equal(name.substr(0, what.size()), what, {}, lower, lower);
@@ -162,12 +162,12 @@ std::vector<ScenePart> parts_of(const fs::path& scene, const SceneNames& names) 
 constexpr std::string_view kCamera = "{camera}";
 constexpr std::array<std::string_view, 4> kPlaceholders{"{scene}", "{variant}", kCamera, "{frame}"};
 
-/// Returns the pattern with `values` in the places of `kPlaceholders`. Where there is no value, the mark that parts it
-/// from what comes before goes, too; at the beginning of a name, the marks that part it from what follows.
+/// Returns the pattern with `values` in the places of `kPlaceholders`. An empty value also removes the mark before its
+/// placeholder or, at the beginning of a name, the marks after it.
 std::string filled(std::string_view pattern, const std::array<std::string, kPlaceholders.size()>& values) {
     constexpr std::string_view kMarks = ".-_";
     std::string name;
-    bool ends_with_value = false;  // whose marks are its own
+    bool ends_with_value = false;  // marks within a value stay
     while (!pattern.empty()) {
         const auto* const found = std::ranges::find_if(
             kPlaceholders, [&](std::string_view placeholder) { return pattern.starts_with(placeholder); });
@@ -217,7 +217,7 @@ std::string image_name(const std::string& pattern, const std::string& scene, con
     return path.string();
 }
 
-/// True if the glob matches the image's name, or its scene's, or the last part of one of them, or a folder above.
+/// Returns true if the glob matches the name of the image or its scene, the last part of either, or a folder above.
 bool matches(const std::string& glob, const BatchTask& task) {
     std::vector<std::string> names{task.id, task.scene_name};
     for (const fs::path path : {task.id, task.scene_name}) names.push_back(path.filename().string());
@@ -250,7 +250,7 @@ BatchTasks choose(std::vector<BatchTask> tasks, const BatchOptions& options) {
             if (names_none(glob))
                 throw UsageError(
                     fmt::format("{} '{}' matches no image; there are {} (a glob matches the name of an image or a "
-                                "scene, or the last part of one, or a folder: '*' any text, '?' a character)",
+                                "scene, or the last part of one, or a folder: '*' is any text, '?' a character)",
                                 option, glob, some_names(tasks)));
     };
     require_matches("--only", options.only);
@@ -288,7 +288,7 @@ std::string how_to_tell_apart(const BatchOptions& options) {
           std::pair(kCamera, options.all_cameras)})
         if (tells_apart && options.name_pattern.find(placeholder) == std::string::npos) missing.push_back(placeholder);
     if (options.name_pattern.empty() || missing.empty())
-        return "render the scenes to different directories, or give one another name";
+        return "render the scenes to different directories, or rename one of them";
     return fmt::format("put {} into --name", fmt::join(missing, " and "));
 }
 

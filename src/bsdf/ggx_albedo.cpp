@@ -36,15 +36,15 @@ template BasicGgxAlbedo<Wide> ggx_albedo_average(Wide);
 
 namespace {
 
-float of_interface(const std::array<Slice, kEtasOutside>& outside, const std::array<Slice, kEtasInside>& inside,
-                   float cos_theta, float alpha, float eta) {
+float interface_albedo(const std::array<Slice, kEtasOutside>& outside, const std::array<Slice, kEtasInside>& inside,
+                       float cos_theta, float alpha, float eta) {
     const auto a = place(alpha_coordinate(alpha, kAlphas), kAlphas);
     const auto c = place(cosine_coordinate(cos_theta, alpha), kCosines);
     return eta >= 1.0f ? interpolate(outside, place(outside_coordinate(eta, cos_theta, alpha), kEtasOutside), a, c)
                        : interpolate(inside, place(inside_coordinate(1.0f / eta, cos_theta, alpha), kEtasInside), a, c);
 }
 
-float average_of_interface(const std::array<std::array<Averages, kAverageEtas>, 2>& sides, float alpha, float eta) {
+float interface_albedo_average(const std::array<std::array<Averages, kAverageEtas>, 2>& sides, float alpha, float eta) {
     const auto a = place(alpha_coordinate(alpha, kAverageAlphas), kAverageAlphas);
     const bool outside = eta >= 1.0f;
     const auto e = place(average_eta_coordinate(outside ? eta : 1.0f / eta), kAverageEtas);
@@ -56,17 +56,17 @@ float average_of_interface(const std::array<std::array<Averages, kAverageEtas>, 
 }  // namespace
 
 float ggx_dielectric_albedo(float cos_theta, float alpha, float eta) {
-    return of_interface(kTables.outside, kTables.inside, cos_theta, alpha, eta);
+    return interface_albedo(kTables.outside, kTables.inside, cos_theta, alpha, eta);
 }
 float ggx_dielectric_albedo_average(float alpha, float eta) {
-    return average_of_interface(kTables.dielectric_average, alpha, eta);
+    return interface_albedo_average(kTables.dielectric_average, alpha, eta);
 }
 
-float ggx_clear_albedo(float cos_theta, float alpha, float eta) {
-    return of_interface(kTables.clear_outside, kTables.clear_inside, cos_theta, alpha, eta);
+float ggx_total_only_albedo(float cos_theta, float alpha, float eta) {
+    return interface_albedo(kTables.total_only_outside, kTables.total_only_inside, cos_theta, alpha, eta);
 }
-float ggx_clear_albedo_average(float alpha, float eta) {
-    return average_of_interface(kTables.clear_average, alpha, eta);
+float ggx_total_only_albedo_average(float alpha, float eta) {
+    return interface_albedo_average(kTables.total_only_average, alpha, eta);
 }
 
 }  // namespace etendue

@@ -34,9 +34,9 @@ inline constexpr float kMaxTabulatedEta = 9.0f;
 [[nodiscard]] float ggx_dielectric_albedo(float cos_theta, float alpha, float eta);
 [[nodiscard]] float ggx_dielectric_albedo_average(float alpha, float eta);
 
-/// Returns the transmitted share, with what is reflected totally, of a rough interface whose facets reflect nothing
-/// else, seen from the side on which the relative index of the other side is `eta` in [1/9, 9].
-[[nodiscard]] float ggx_clear_albedo(float cos_theta, float alpha, float eta);
-[[nodiscard]] float ggx_clear_albedo_average(float alpha, float eta);
+/// Returns the share of light that leaves a rough interface whose facets reflect only where reflection is total, seen
+/// from the side on which the relative index of the other side is `eta` in [1/9, 9].
+[[nodiscard]] float ggx_total_only_albedo(float cos_theta, float alpha, float eta);
+[[nodiscard]] float ggx_total_only_albedo_average(float alpha, float eta);
 
 }  // namespace etendue

@@ -171,10 +171,10 @@ struct Tables {
     Averages single_average;
     Averages schlick_average;
     std::array<std::array<Averages, kAverageEtas>, 2> dielectric_average;  ///< [side][eta], side 0 outside (eta >= 1)
-    // Of an interface that reflects only where it does so totally.
-    std::array<Slice, kEtasOutside> clear_outside;
-    std::array<Slice, kEtasInside> clear_inside;
-    std::array<std::array<Averages, kAverageEtas>, 2> clear_average;
+    // These tables are of an interface whose facets reflect only where reflection is total.
+    std::array<Slice, kEtasOutside> total_only_outside;
+    std::array<Slice, kEtasInside> total_only_inside;
+    std::array<std::array<Averages, kAverageEtas>, 2> total_only_average;
 };
 
 }  // namespace etendue::ggx_albedo_layout

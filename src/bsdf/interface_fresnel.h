@@ -39,15 +39,15 @@ struct InterfaceFresnel {
         return {reflected, transmitted, chance + transmitted > 0.0f ? chance / (chance + transmitted) : 1.0f};
     }
 
-    /// Gives what is reflected where that is not all, in the brightest channel and without the film, as `bare` times
-    /// the reflectance of the indices and `all` times 1.
+    /// Splits the reflectance, where reflection is not total, into `bare` times the reflectance of the indices plus
+    /// `all`. It is that of the brightest channel, without the film.
     struct Mixture {
         float bare = 1.0f;
         float all = 0.0f;
 
-        /// Returns a figure that is linear in the reflectance, from what it is for that of the indices, for 1, and for
-        /// 0 where reflection is not total.
-        [[nodiscard]] float of(float of_bare, float of_all, float of_none) const {
+        /// Returns a figure that is linear in the reflectance, from its values for the reflectance of the indices, for
+        /// a reflectance of 1, and for a reflectance of 0 where reflection is not total.
+        [[nodiscard]] float blend(float of_bare, float of_all, float of_none) const {
             return bare * of_bare + all * of_all + (1.0f - bare - all) * of_none;
         }
     };

@@ -17,7 +17,7 @@ float mean_alpha(const Ggx& ggx) {
     return ggx.is_isotropic() ? ggx.alpha_x : std::sqrt(ggx.alpha_x * ggx.alpha_y);
 }
 
-/// Returns the alpha of round facets that miss `target`, where `missing` grows with alpha.
+/// Returns the alpha at which round facets miss the share `target`; `missing` returns that share and grows with alpha.
 template <typename Missing>
 float alpha_that_misses(float target, const Missing& missing) {
     float low = 0.0f;
@@ -27,7 +27,7 @@ float alpha_that_misses(float target, const Missing& missing) {
 }
 
 /// Returns 1 - E(w), for `w` on the side whose other side has the relative index `eta`. Stretched facets with a
-/// reflectance of their own miss what round ones do that miss as much with that of the indices.
+/// reflectance of their own are taken for round facets that miss as much with the reflectance of the indices.
 float missing_of(const InterfaceFresnel& fresnel, const Ggx& ggx, const Vec3f& w, float eta) {
     const Vec3f above{w.x, w.y, std::abs(w.z)};
     const auto bare = [&](float alpha) { return 1.0f - ggx_dielectric_albedo(above.z, alpha, eta); };
@@ -35,8 +35,8 @@ float missing_of(const InterfaceFresnel& fresnel, const Ggx& ggx, const Vec3f& w
                                              : ggx_anisotropic_dielectric_missing(above, ggx.alpha_x, ggx.alpha_y, eta);
     if (fresnel.is_bare()) return std::clamp(of_bare, 0.0f, 1.0f);
     const float alpha = ggx.is_isotropic() ? ggx.alpha_x : alpha_that_misses(of_bare, bare);
-    return std::clamp(fresnel.mixture(eta).of(of_bare, 1.0f - ggx_albedo(above.z, alpha).single,
-                                              1.0f - ggx_clear_albedo(above.z, alpha, eta)),
+    return std::clamp(fresnel.mixture(eta).blend(of_bare, 1.0f - ggx_albedo(above.z, alpha).single,
+                                                 1.0f - ggx_total_only_albedo(above.z, alpha, eta)),
                       0.0f, 1.0f);
 }
 
@@ -48,15 +48,15 @@ float missing_average_of(const InterfaceFresnel& fresnel, const Ggx& ggx, float 
                               : ggx_anisotropic_dielectric_missing_average(ggx.alpha_x, ggx.alpha_y, eta);
     if (fresnel.is_bare()) return of_bare;
     const float alpha = ggx.is_isotropic() ? ggx.alpha_x : alpha_that_misses(of_bare, bare);
-    return std::clamp(fresnel.mixture(eta).of(of_bare, 1.0f - ggx_albedo_average(alpha).single,
-                                              1.0f - ggx_clear_albedo_average(alpha, eta)),
+    return std::clamp(fresnel.mixture(eta).blend(of_bare, 1.0f - ggx_albedo_average(alpha).single,
+                                                 1.0f - ggx_total_only_albedo_average(alpha, eta)),
                       0.0f, 1.0f);
 }
 
 /// Returns the share of diffuse light that a smooth interface to an index `eta` times that on this side lets through.
 float passed_by_smooth(const InterfaceFresnel& fresnel, float eta) {
     const float total = std::max(0.0f, 1.0f - eta * eta);
-    return 1.0f - fresnel.mixture(eta).of(fresnel_dielectric_average(eta), 1.0f, total);
+    return 1.0f - fresnel.mixture(eta).blend(fresnel_dielectric_average(eta), 1.0f, total);
 }
 
 /// The interface seen from wo's side, mirrored so that wo.z > 0.

@@ -100,7 +100,7 @@ void run_on_finish(const BatchOptions& options, const BatchReport& report, ExitC
 }
 
 /// Leaves out all but the images that failed last time, or were not tried as others of their scene had failed. Returns
-/// what to say if there is none.
+/// the message if no image is left, else an empty text.
 std::string keep_failed(BatchTasks& tasks, const LedgerHistory& history, const BatchOptions& options) {
     const auto has_failed = [&](const BatchTask& task) {
         const LedgerHistory::Entry* const last = history.find(task.id);
@@ -328,7 +328,7 @@ void add_attempt_options(CLI::App& command, BatchOptions& options) {
     auto* in_process =
         command
             .add_flag("--in-process", options.in_process,
-                      "Render all images in this process instead of one each: a crash ends the whole batch")
+                      "Render all images in this process, not in one process each: a crash ends the batch")
             ->excludes(command.get_option("--jobs"));
     command
         .add_option_function<std::string>(

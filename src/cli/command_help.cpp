@@ -38,7 +38,7 @@ OptionHelp::Value value_of(const CLI::Option& option, const std::vector<std::str
 }
 
 /// Returns the names of the options: "--denoise, --jobs".
-std::string names_listed(const std::set<CLI::Option*>& options) {
+std::string listed_names(const std::set<CLI::Option*>& options) {
     std::set<std::string> names;
     for (const CLI::Option* option : options) names.insert(option->get_name());
     return fmt::format("{}", fmt::join(names, ", "));
@@ -71,7 +71,7 @@ OptionHelp describe_option(const CLI::Option& option) {
                                                   std::tuple("Excludes:", option.get_excludes(), "not with")})
         if (!options.empty()) {
             help.terms = CLI::detail::trim_copy(help.terms.substr(0, help.terms.find(heading)));
-            help.description += fmt::format(" ({} {})", words, names_listed(options));
+            help.description += fmt::format(" ({} {})", words, listed_names(options));
         }
     help.choices = choices_of(option.get_type_name());
     help.value = value_of(option, help.choices);

@@ -212,7 +212,7 @@ Findings measure_renders(const CompareArguments& arguments, ComparisonPlan& plan
     if (regions.empty()) regions = find_regions(found.maps.rel_mse, variants.front().sampling.window);
     measure(report, variants, renders, found.images, found.reference, found.maps, regions, context);
     add_render_commands(arguments, variants, report);
-    // Times that are off are named, and so are those that are unequal.
+    // The note on times off the budget names them all, so that the note on unequal times would repeat it.
     const std::string off = off_budget(report);
     for (const std::string& note :
          {reference_noise(report), off.empty() ? unequal_times(report) : off, lost_in_pdf(report)})

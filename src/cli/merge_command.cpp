@@ -144,8 +144,8 @@ ExitCode run_merge(const MergeArguments& arguments) {
     require_writable(output);
     if (!is_partial(output) && paths.json.filename() == kSettingsName)
         throw UsageError(
-            fmt::format("--output: the statistics, {}, would replace settings of a scene, or be taken for "
-                        "some: give the image another name",
+            fmt::format("--output: the statistics, {}, would replace the settings of a scene, or be taken for "
+                        "settings: give the image another name",
                         paths.json.string()));
     require_parts_kept(arguments,
                        is_partial(output) ? std::vector{output} : std::vector{output, paths.png, paths.json});

@@ -292,7 +292,7 @@ void add_render_command(CLI::App& app, Action& action) {
     command
         ->add_option(
             "--first-frame", arguments->first_frame,
-            "If --frames is only part of a sequence: the sequence's first frame. 'auto' chooses the integrator "
+            "First frame of the whole sequence, if --frames is only a part of it. 'auto' chooses the integrator "
             "at that frame (default: the first of --frames)")
         ->check(CLI::Range(-999999, 999999));
     add_threads_option(*command, arguments->threads);

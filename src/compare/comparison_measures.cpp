@@ -330,8 +330,8 @@ std::string off_budget(const ComparisonReport& report) {
             off.push_back(fmt::format("'{}' {:.3g} s", variant.name, time));
     if (off.empty()) return "";
     return fmt::format(
-        "in place of {:.3g} s of {}, renders took in the mean: {}; a longer --time comes nearer to it, and "
-        "ratios of relMSE x time allow for it",
+        "renders took another time on average than the {:.3g} s of {} asked for: {}; with a longer --time the "
+        "difference is smaller, and ratios of relMSE x time allow for it",
         *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
 }
 

@@ -77,8 +77,8 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
     if (variants.size() < 2) return "one variant alone cannot be pooled";
     if (!untested.empty() && (groups.empty() || groups.front().size() < 2))
         return fmt::format(
-            "so few bright pixels make up the image of {} that no test can say whether it agrees with another; more "
-            "--seeds, a larger --size, or a --crop without these pixels help, longer renders may not",
+            "so few bright pixels make up the image of {} that no test can say whether it agrees with another: more "
+            "--seeds, a larger --size, or a --crop without these pixels help; longer renders may not",
             names_text(variants, untested));
     if (groups.empty() || groups.front().size() < 2)
         return "no two of the variants show the same light and find all of it, and none can be its own reference";
@@ -266,7 +266,7 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
     if (!untested.empty())
         notes.push_back(
             fmt::format("the reference has no part of {}: so few bright pixels make up the image that no test can say "
-                        "whether it agrees with the others, which its errors are against",
+                        "whether it agrees with the others, against which its errors are measured",
                         names_text(variants, untested)));
     const Variant& first = variants[members.front()];
     const std::string& integrator = first.settings.integrator.type;

@@ -52,10 +52,10 @@ void print(const PairReport& pair) {
         log_info("{} and {}, {}: {}; a difference of {} of the whole image{} is seen with probability {}{}", pair.a,
                  pair.b, pair.verdict() == "disagree" ? "DISAGREE" : pair.verdict(), pair.agreement->str(),
                  human_percent(pair.smallest_of_image()),
-                 pair.agreement->only_whole
+                 pair.agreement->whole_image_only
                      ? ""
                      : fmt::format(", or {} of a block,", human_percent(pair.smallest_of_block())),
-                 kPower, pair.agreement->only_whole ? kOnlyWhole : "");
+                 kPower, pair.agreement->whole_image_only ? kOnlyWhole : "");
 }
 
 void print(const RegionReport& region) {

@@ -47,7 +47,7 @@ class WindowWeights {
     [[nodiscard]] std::span<const float> window(int x, int y) const;
     [[nodiscard]] int rows() const { return 2 * settings_.radius + 1; }
     [[nodiscard]] int row_stride() const { return row_stride_; }
-    /// Number of weights of one window: rows() * row_stride().
+    /// Returns the number of weights of one window: rows() * row_stride().
     [[nodiscard]] std::size_t window_size() const {
         return static_cast<std::size_t>(rows()) * static_cast<std::size_t>(row_stride_);
     }

@@ -18,7 +18,7 @@ inline constexpr int kFillRadius = 8;
 /// replaced.
 std::size_t fill_unusable(Planes& whole, Planes& one_half);
 
-/// The depth, in metres, that a layer holds where the ray met nothing.
+/// Is the depth, in metres, that a layer holds where the ray met nothing.
 inline constexpr float kNothingThere = 1e10f;
 
 /// Moves the background of `whole` and `one_half` (values of kNothingThere and more) to 1.1 times the plane's largest

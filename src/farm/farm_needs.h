@@ -14,7 +14,7 @@ namespace etendue {
 
 /// Holds what `etendue render --probe` has measured of one image.
 struct RenderProbe {
-    double start_seconds = 0.0;   ///< seconds until its process renders
+    double start_seconds = 0.0;   ///< seconds from the start of the process to the first sample
     double render_seconds = 0.0;  ///< seconds to render all samples with `threads` threads
     std::uint64_t peak_memory_bytes = 0;
     int threads = 1;

@@ -75,7 +75,7 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
             of_sequence ? of_sequence->integrator : choose_integrator(world, settings, to_choose, threads).integrator;
     const auto integrator = create_integrator(settings);
     const PhaseTime build = build_timer.elapsed();
-    // Colours are set up and libraries loaded for each image, too: for small ones, most of the time.
+    // Each process also sets up colours and loads libraries, which takes most of the time of small images.
     const double start = std::max(seconds_since_process_start(), prepared.load.wall + build.wall);
     const ShortRender rendered = render_shortly(world, *integrator, options, threads);
 

@@ -12,14 +12,14 @@ struct WhittedIntegrator final : ScalarIntegrator {
     [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
 };
 
-/// Shows no light but, to find out what is wrong, shading normals in world space, each component mapped from [-1, 1] to
+/// Shows, for debugging, shading normals in world space in place of light, each component mapped from [-1, 1] to
 /// [0, 1].
 struct NormalsIntegrator final : ScalarIntegrator {
     explicit NormalsIntegrator(const IntegratorSettings& settings) : ScalarIntegrator(settings, Shows::NoLight) {}
     [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
 };
 
-/// Shows no light but, to find out what is wrong, the share of light that surfaces scatter, seen from the eye.
+/// Shows, for debugging, the share of light that surfaces scatter in place of light, seen from the eye.
 struct AlbedoIntegrator final : ScalarIntegrator {
     explicit AlbedoIntegrator(const IntegratorSettings& settings) : ScalarIntegrator(settings, Shows::NoLight) {}
     [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;

@@ -5,8 +5,8 @@
 
 namespace etendue {
 
-/// How a surface reflects, roughly: a share as a diffuse surface does, and the rest around the mirror's direction.
-/// Eleven floats, from the position on, in a row that lanes are loaded from (core/wide_rows.h).
+/// Says roughly how a surface reflects: a share as a diffuse surface does, and the rest around the mirror's direction.
+/// Its eleven floats, from the position on, lie in a row from which lanes are loaded (core/wide_rows.h).
 struct alignas(64) LightReceiver {
     Vec3f position{0.0f};  ///< metres
     /// Unit, on the side that light is reflected on; zero where light from everywhere may count: in media, and on
@@ -19,7 +19,7 @@ struct alignas(64) LightReceiver {
     LightReceiver() = default;
     /// Nothing but a point.
     LightReceiver(const Vec3f& point) : position(point) {}  // NOLINT(google-explicit-constructor): the most common
-    /// A diffuse surface.
+    /// Makes the receiver that is a diffuse surface.
     LightReceiver(const Vec3f& point, const Vec3f& facing) : position(point), normal(facing) {}
 
     [[nodiscard]] bool has_normal() const { return normal != Vec3f(0.0f); }

@@ -37,7 +37,7 @@ struct LiveAnswer {
 
 /// Says how long after its last question a page counts as closed, or hidden behind others.
 inline constexpr std::chrono::seconds kWatchedFor{3};
-/// The longest time that the server waits at the end, so that each open page learns of it.
+/// Is the longest time that the server waits at its end, so that each open page learns of the end.
 inline constexpr std::chrono::milliseconds kFarewell{1000};
 
 /// Hands requests of browsers to a function. Requests that name another host, come from pages of others or lack the

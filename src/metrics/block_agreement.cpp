@@ -293,8 +293,8 @@ BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, co
     // The last ones are of the whole image, which may be the only block.
     const auto channels = static_cast<std::size_t>(a.mean.channels);
     result.mean_error = *std::max_element(block_errors.end() - a.mean.channels, block_errors.end());
-    result.only_whole = result.tests == channels;
-    if (!result.only_whole) block_errors.resize(result.tests - channels);
+    result.whole_image_only = result.tests == channels;
+    if (!result.whole_image_only) block_errors.resize(result.tests - channels);
     result.block_error = median(std::move(block_errors));
     result.means_agree = result.mean_difference <= options.mean_tolerance;
     return result;
@@ -304,7 +304,7 @@ std::string BlockAgreement::str() const {
     return fmt::format(
         "{} tests of {} {}: the worst is of {}x{} pixels at ({}, {}), channel {}: {:.6g} against {:.6g}, z = {:.2f}, "
         "p = {:.3g} for all tests together; the means of the whole images differ by {:.3f}%{}",
-        tests, only_whole ? "the whole image" : "blocks", blocks_agree ? "agree" : "disagree", worst.width,
+        tests, whole_image_only ? "the whole image" : "blocks", blocks_agree ? "agree" : "disagree", worst.width,
         worst.height, worst.x, worst.y, worst.channel, worst.mean_a, worst.mean_b, worst.z, p_value,
         100.0 * mean_difference, means_agree ? "" : ", which is too much");
 }

@@ -71,9 +71,9 @@ struct BlockDifference {
 struct BlockAgreement {
     bool blocks_agree = false;
     bool means_agree = false;
-    double p_value = 1.0;     ///< p-value of the worst block, corrected for the number of tests (Sidak 1967)
-    std::size_t tests = 0;    ///< blocks and the whole image, times channels
-    bool only_whole = false;  ///< the whole image is the only block, so that no part of it was tested by itself
+    double p_value = 1.0;           ///< p-value of the worst block, corrected for the number of tests (Sidak 1967)
+    std::size_t tests = 0;          ///< blocks and the whole image, times channels
+    bool whole_image_only = false;  ///< the whole image is the only block, so that no part of it was tested by itself
     BlockDifference worst;
     /// Largest relative difference of the images' means over the channels.
     double mean_difference = 0.0;

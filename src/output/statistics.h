@@ -101,8 +101,8 @@ struct RenderStatistics {
     PhaseTime render;
     PhaseTime write;  ///< the images; this file is written after them
 
-    double seconds_before = 0.0;    ///< seconds on the clock that `render` had when this process went on with it
-    std::uint64_t rays_before = 0;  ///< rays that had been traced then
+    double seconds_before = 0.0;    ///< part of `render` before this process went on with it, seconds on the clock
+    std::uint64_t rays_before = 0;  ///< rays that were traced before it did
 
     std::uint64_t peak_memory_bytes = 0;  ///< largest memory of the process, bytes
     std::uint64_t bvh_bytes = 0;

@@ -29,7 +29,7 @@ constexpr int kMostMapWidth = 480;
 constexpr std::uint64_t kMostBruteTriangles = 100'000;
 constexpr std::size_t kGrowthRays = std::size_t{1} << 15;
 
-/// A few rays that follow each other, and what tracing them took and met.
+/// Holds a few successive rays, the time that tracing them took, and what they met.
 struct TracedChunk {
     std::span<const Ray> rays{};
     double seconds = 0.0;
@@ -60,7 +60,7 @@ class Tracer {
     /// Returns the structure, or null for Embree.
     [[nodiscard]] const AcceleratedScene* scene() const { return scene_.get(); }
 
-    /// Traces as many of `rays` as it can in the time, and then compares the hits of these with Embree's if `compares`.
+    /// Traces as many of `rays` as kSecondsPerKind allows, and then compares their hits with Embree's if `compares`.
     [[nodiscard]] std::vector<TracedChunk> trace(std::span<const Ray> rays, bool occlusion, bool compares) const {
         std::vector<TracedChunk> chunks;
         double sum = 0.0;
@@ -83,8 +83,8 @@ class Tracer {
     AcceleratorMeasure measure_;
 };
 
-/// Returns how many of `count` rays there are to a second, without the slowest of `chunks`: then, most likely, some
-/// other process ran.
+/// Returns the rate, rays per second, of the `count` rays of `chunks`, without the slowest chunks: most likely, some
+/// other process ran during these.
 double undisturbed_rate(std::span<const TracedChunk> chunks, double count) {
     if (chunks.empty()) return 0.0;
     std::vector<double> seconds;
@@ -97,7 +97,7 @@ double undisturbed_rate(std::span<const TracedChunk> chunks, double count) {
     return sum > 0.0 ? share * count / sum : 0.0;
 }
 
-/// Sums up what a structure did with rays. Embree does not tell what it visits.
+/// Sums up what a structure did with the rays of `chunks`. Embree does not tell what it visits.
 TracedKind sum_up(std::span<const TracedChunk> chunks, AcceleratorKind kind) {
     TracedKind result;
     RayWork work;

@@ -56,8 +56,8 @@ struct AcceleratorRuns {
     bool interrupted = false;
 };
 
-/// Builds each of `kinds` over `world` and has all trace the same of `rays`: of each kind as many as the slowest can in
-/// about half a second. `width` and `height` are those of the image.
+/// Builds each of `kinds` over `world` and lets all of them trace the same rays of `rays`: of each kind of ray as many
+/// as the slowest structure can trace in about half a second. `width` and `height` are those of the image.
 [[nodiscard]] AcceleratorRuns measure_accelerators(const World& world, const std::vector<AcceleratorKind>& kinds,
                                                    const RecordedRays& rays, int width, int height);
 

@@ -252,7 +252,8 @@ class RunMeasurement {
         const Coherence coherence = is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent;
         const std::span<const std::vector<Ray>> segments = recorder.segments();
         constexpr std::array kForms{QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16};
-        // Others seldom take the processor within the microseconds of a segment, and hardly ever twice within the same.
+        // Other programs seldom take the processor during the microseconds of a segment, and hardly ever in two rounds
+        // of the same segment.
         std::array<std::vector<std::vector<double>>, kForms.size()> seconds;
         seconds.fill(std::vector<std::vector<double>>(segments.size()));
         const auto parts = static_cast<std::size_t>(threads.thread_count());

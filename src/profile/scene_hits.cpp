@@ -92,8 +92,8 @@ class HitCounter {
     }
 
   private:
-    /// Returns the name of the lamp that `ray` went to, which meets `end` there; null if it cannot be told, as where it
-    /// grazes the lamp and meets the wall behind.
+    /// Returns the name of the lamp that `ray` leads to; `end` is the hit there. Null if the lamp is not known, as if
+    /// `ray` grazes the lamp and meets the wall behind.
     [[nodiscard]] const std::string* lamp_of(const Ray& ray, const Hit& end) const {
         static const std::string kNoSurface = "lights without a surface";
         if (end.valid() && lit_instances_.contains(end.instance)) return &names_.objects[end.instance];
@@ -103,7 +103,7 @@ class HitCounter {
 
     const World& world_;
     const SceneHitNames& names_;
-    std::set<std::uint32_t> lit_instances_;  ///< with a light on them
+    std::set<std::uint32_t> lit_instances_;  ///< instances that are lights
     bool has_points_ = false;                ///< there are lights without a surface that are not infinitely far away
     std::vector<Hit> hits_;
     std::vector<Ray> ends_;

@@ -29,7 +29,7 @@ inline constexpr std::uint32_t kLargestPass = 16;
 /// a render begins and ends, so that parts of a render agree with the whole.
 [[nodiscard]] std::uint32_t pass_size(std::uint32_t first, std::uint32_t end);
 
-/// Returns true if one of those passes begins with sample `first`.
+/// Returns true if one of the passes that `pass_size` makes begins with sample `first`.
 [[nodiscard]] bool begins_pass(std::uint32_t first);
 
 /// True for every other pass, by the sample that it begins with.

@@ -84,7 +84,7 @@ function showAccelerators() {
     element("h3", {}, "Rays per second of one thread"),
     kinds.length > 0 ? plot(acceleratorPlot(measures, kinds),
       legend(names.map((name, i) => ({ name, fill: acceleratorFill(i) })))) : null,
-    element("p", { class: "hint" }, `All trace the same rays of the integrators, one after the other, Embree too: of each kind
+    element("p", { class: "hint" }, `All structures trace the same rays of the integrators, one after the other: of each kind
       as many as the slowest can in half a second. Ties are rays that met another triangle than in Embree, as far away but
       for rounding.`),
     table(["", "rays", "traced", "rays/s", "nodes/ray", "triangles/ray", "ties", "differ"], measures.flatMap((m) =>

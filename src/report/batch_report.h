@@ -60,8 +60,8 @@ struct BatchUnit {
     std::string integrator{};
     std::string halt_reason{};
     std::optional<UnitSeconds> seconds{};
-    double seconds_before = 0.0;                ///< part of `seconds` that was rendered before its last attempt
-    std::uint64_t rays_before = 0;              ///< part of `rays` that was
+    double seconds_before = 0.0;                ///< part of `seconds` from before the last attempt
+    std::uint64_t rays_before = 0;              ///< part of `rays` from before the last attempt
     std::optional<double> estimated_seconds{};  ///< seconds that the plan expected
     std::optional<double> fraction{};           ///< part that is done while it is running, [0, 1]
     std::optional<double> seconds_left{};       ///< seconds until it is done, while it is running
@@ -95,8 +95,8 @@ struct BatchReport {
     std::vector<BatchUnit> units{};
 };
 
-/// Sums over the units; those of seconds and rays are of what this batch rendered, without what checkpoints held before
-/// an image's last attempt.
+/// Holds sums over the units. Seconds and rays count what this batch rendered, without what checkpoints held before an
+/// image's last attempt.
 struct BatchTotals {
     std::size_t units = 0;
     std::size_t rendered = 0;

@@ -84,7 +84,7 @@ Json test_of(const PairReport& pair) {
             {"means_agree", agreement.means_agree},
             {"block_size", options.block_size},
             {"tests", agreement.tests},
-            {"only_whole", agreement.only_whole},
+            {"whole_image_only", agreement.whole_image_only},
             {"p_value", agreement.p_value},
             {"significance", options.significance},
             {"mean_difference", agreement.mean_difference},

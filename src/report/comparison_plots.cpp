@@ -29,14 +29,14 @@ constexpr std::array<PlotColor, 6> kVariantColors{{{0.0, 0.447, 0.698},
                                                    {0.659, 0.271, 0.498},
                                                    {0.502, 0.4, 0.0},
                                                    {0.333, 0.357, 0.388}}};
-constexpr std::size_t kLongestName = 28;  // bytes of a legend
-constexpr double kWidestName = 130.0;     // points
+constexpr std::size_t kLongestName = 28;  // bytes of a name in a legend
+constexpr double kWidestName = 130.0;     // width of a name in a legend, points
 
 const PlotColor& color_of(std::size_t variant) {
     return kVariantColors[variant % kVariantColors.size()];
 }
 
-/// Cuts a name for a legend.
+/// Returns a name, cut if it is too long or too wide for a legend.
 std::string legend_name(const std::string& name) {
     std::string shown = name;
     for (std::size_t length = kLongestName; shown.size() > kLongestName || text_width(shown, kFontSize) > kWidestName;
@@ -214,7 +214,7 @@ class ConvergencePlot {
                   {x_.at(std::pow(10.0, to)), y_.at(std::pow(10.0, y_at(to)))}, kMuted, 0.5, {0.8, 2.4});
     }
 
-    /// Says at the top right what is no mean, with room for fonts that are wider than Helvetica.
+    /// Says at the top right what bands, dashes and dots are, with room for fonts that are wider than Helvetica.
     void draw_key(const char* slope) {
         constexpr double kRoom = 16.0;
         const std::size_t seeds = series_.front().errors.front().values.size();

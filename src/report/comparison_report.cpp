@@ -43,10 +43,10 @@ double SeedValues::largest() const {
 }
 
 std::string heavy_tail(const VariantReport& variant, const std::string& metric) {
-    // The variance of the logarithm of a mean is of first order, and chance decides what a mean of few seeds holds,
-    // where these scatter by more.
+    // Where seeds scatter by more, chance decides what a mean of few seeds holds, and the variance of its logarithm,
+    // which is of first order, is too small.
     constexpr double kMostScatter = 0.5;
-    // As much as the largest 0.1% hold if terms follow Pareto's law with the exponent 3/2, whose variance is infinite.
+    // The largest 0.1% hold this share if terms follow Pareto's law with the exponent 3/2, whose variance is infinite.
     constexpr double kMostOfValues = 0.1;
     const auto found = variant.errors.find(metric);
     if (found == variant.errors.end()) return "";
@@ -77,7 +77,7 @@ std::string_view PairReport::verdict() const {
     constexpr double kWeak = 0.1;  // larger differences of whole images are not worth the word "agree"
     if (!agreement || !not_tested.empty()) return "not tested";
     if (!agreement->agree()) return "disagree";
-    return agreement->only_whole || smallest_of_image() > kWeak ? "no difference seen" : "agree";
+    return agreement->whole_image_only || smallest_of_image() > kWeak ? "no difference seen" : "agree";
 }
 
 std::vector<UntestedVariant> ComparisonReport::untested() const {

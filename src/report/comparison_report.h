@@ -96,7 +96,7 @@ struct PairReport {
     std::string b{};
     /// Holds a's over b's: metrics, "relmse_time", "relmse-trimmed_time", "rays_per_second", "efficiency".
     std::map<std::string, RatioInterval> ratios{};
-    std::map<std::string, std::string> no_interval{};  ///< ends of sentences: why ratios of heavy tails have none
+    std::map<std::string, std::string> no_interval{};  ///< why a ratio has no interval, by its key in `ratios`
     std::optional<ReachedError> a_reaches_b{};
     std::optional<ReachedError> b_reaches_a{};
     std::string different_light{};  ///< why they show different light by what was asked for; empty if they do not

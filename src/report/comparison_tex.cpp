@@ -83,7 +83,8 @@ std::string tex_interval(const RatioInterval& interval) {
     return fmt::format("{} [{}, {}]", tex_number(interval.ratio), tex_number(interval.low), tex_number(interval.high));
 }
 
-/// `columns` says how each is aligned, as LaTeX has it; `below` are rows under the last line.
+/// Returns a table for LaTeX. `columns` has LaTeX's letter for the alignment of each column, and `below` has the rows
+/// under the last line.
 std::string tex_table(const std::string& columns, const std::vector<std::vector<std::string>>& rows,
                       const std::string& below = "") {
     std::string text = fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n", columns);
@@ -123,8 +124,8 @@ std::vector<std::vector<std::string>> variant_rows(const ComparisonReport& repor
 
 using KeysAndHeads = std::vector<std::pair<std::string, std::string>>;
 
-/// Returns the ratios that are shown: of errors, those without fireflies first where others have no interval; without a
-/// reference, those that need none.
+/// Returns the ratios to show. With a reference, they are of errors, and trimmed errors come first if others have no
+/// interval; without a reference, the ratios are of rates.
 KeysAndHeads shown_ratios(const ComparisonReport& report) {
     if (report.metrics.empty()) return {{"rays_per_second", "rays per second"}, {"efficiency", "efficiency"}};
     KeysAndHeads shown{{"relmse", "relMSE"},

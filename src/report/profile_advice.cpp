@@ -18,7 +18,7 @@ namespace {
 /// Shares of the time from which on something is worth a sentence.
 constexpr double kMuchTime = 0.1;
 constexpr double kMuchWaiting = 0.15;
-/// Share of the rays from which on leaving them out is worth a sentence.
+/// Is the least share of the rays whose saving is worth a sentence.
 constexpr double kManyRays = 0.02;
 
 struct Sentence {
@@ -119,7 +119,7 @@ class Adviser {
         // What the eye sees directly has so many light samples at each point, all else one.
         const double samples = static_cast<double>(shadow->rays) / run_.light_sampling_used;
         const double saved = (run_.light_samples - 1) * static_cast<double>(camera->rays) * camera->hit_share;
-        // Counts, other than times, are those of every profile of this work.
+        // Unlike times, counts are the same in every profile of this work.
         const double share =
             std::min(1.0, saved / samples) * rate(static_cast<double>(shadow->rays), static_cast<double>(run_.rays));
         add(changes_, share, kManyRays,

@@ -73,6 +73,7 @@ struct ProfileComparison {
 
 /// Says in a sentence how the two profiles are of different work: scene, size, length of paths, triangles or another of
 /// the settings; empty if they are not.
+/// The sentence calls `before` by `name`.
 [[nodiscard]] std::string difference_of_work(const ProfileReport& before, const ProfileReport& now,
                                              std::string_view name = "the baseline");
 

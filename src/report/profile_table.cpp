@@ -137,7 +137,7 @@ std::string hits(const SceneHitsReport& report) {
     add("material", report.materials);
     add("object", report.objects);
     add("texture", report.textures);
-    if (report.lamps.size() < 2) return text;  // one has all of them
+    if (report.lamps.size() < 2) return text;  // a single lamp has all shadow rays
     double shadow_rays = 0.0;
     for (const LampReport& lamp : report.lamps) shadow_rays += lamp.shadow_rays;
     std::string lamps;

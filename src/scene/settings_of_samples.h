@@ -52,9 +52,9 @@ inline constexpr std::array kSampleSettings{
             .type = RealNumber{kNotNegative},
             .decides = Decides::End,
             .help = "Start no new pass once the image's estimated relative error is at most this. 0.05 is a clean "
-                    "preview, 0.01 a clean image, 0 sets no limit. It is a root mean square. Values below half of the "
-                    "image's own scale are measured against that half. Pixels get the samples they need, `--spp` at "
-                    "most. The film takes twice the memory",
+                    "preview, 0.01 a clean image, 0 sets no limit. The error is a root mean square. Values below half "
+                    "of the image's own scale are measured against that half. Pixels get the samples they need, "
+                    "`--spp` at most. The film takes twice the memory",
             .page = "adaptive.md#what-the-error-is-relative-to",
             .place = at([](auto& s) -> auto& { return s.relative_error; })},
     Setting{.pointer = "/clamp_indirect",
@@ -62,8 +62,8 @@ inline constexpr std::array kSampleSettings{
             .type = RealNumber{kNotNegative, true},
             .decides = Decides::Samples,
             .unit = "units of the image",
-            .help = "Limit the largest component of each contribution of indirect light to this. Fireflies get fewer, "
-                    "but light is missing. 0 for no limit",
+            .help = "Limit the largest component of each contribution of indirect light to this; 0 sets no limit. "
+                    "Fireflies get fewer, but light is missing",
             .page = "fireflies.md",
             .place = at([](auto& s) -> auto& { return s.clamp_indirect; })},
     Setting{.pointer = "/robust",
@@ -72,15 +72,15 @@ inline constexpr std::array kSampleSettings{
             .decides = Decides::Sums,
             .help =
                 "`mean`, or `mon:N`: split the samples of a pixel into N groups and take the median of their means. "
-                "That removes a few fireflies; with few samples the image is too dark",
+                "The median removes a few fireflies; with few samples the image is too dark",
             .page = "fireflies.md",
             .place = parsed_at<parse_robust, robust_text>([](auto& s) -> auto& { return s.robust_buckets; })},
     Setting{.pointer = "/brightest",
             .option = "--brightest",
             .type = WholeNumber{0, kMostBrightest},
             .decides = Decides::Report,
-            .help = "List this many of the brightest contributions, with their paths, in NAME.json. If the option is "
-                    "given, also on stderr",
+            .help = "List this many of the brightest contributions, with their paths, in NAME.json and, if the option "
+                    "is given, on stderr",
             .page = "fireflies.md",
             .place = at([](auto& s) -> auto& { return s.brightest; })},
     Setting{.pointer = "/adaptive",

@@ -122,7 +122,7 @@ inline constexpr std::array kAnimationSettings{
             .decides = Decides::Samples,
             .needs = "/time_code",
             .default_text = "all whose targets do not conflict",
-            .help = "Names of the animations to play, or `none`; may be given several times",
+            .help = "Names of the animations to play, or `none`; the option may be given several times",
             .page = "gltf.md#animations",
             .place = at([](auto& s) -> auto& { return s.animations; })},
     Setting{

@@ -62,8 +62,9 @@ inline constexpr std::array kTransportSettings{
             .option = "--light-samples",
             .type = WholeNumber{1, kMostLightSamples},
             .decides = Decides::Samples,
-            .help = "How many lights `path` and `direct` sample at what the camera sees directly, in mirrors or "
-                    "through smooth glass. More reduce the noise of soft shadows and many lights, and take longer",
+            .help = "Number of lights that `path` and `direct` sample at each point that the camera sees directly, in "
+                    "mirrors or through smooth glass. More samples reduce the noise of soft shadows and many lights, "
+                    "and take longer",
             .page = "integrators.md#which-light-is-sampled",
             .place = at([](auto& s) -> auto& { return s.integrator.light_samples; })},
     Setting{.pointer = "/integrator/heuristic",
@@ -84,8 +85,8 @@ inline constexpr std::array kTransportSettings{
     Setting{.pointer = "/integrator/weighted",
             .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy found them"},
             .decides = Decides::Samples,
-            .help = "Whether the paths of the strategy are weighted. If not, they show as if no other strategy found "
-                    "them, and merges as in photon mapping",
+            .help = "Whether the paths of the strategy are weighted. Unweighted paths show as if no other strategy "
+                    "found them, and merges show as in photon mapping",
             .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
     Setting{.pointer = "/integrator/connections",
             .option = "--bdpt-connections",
@@ -113,8 +114,8 @@ inline constexpr std::array kTransportSettings{
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,
             .decides = Decides::Samples,
-            .help = "Where `vcm` merges. `sds`: where both the camera and the light come by a mirror or smooth glass. "
-                    "`all`: at every vertex. `none`: nowhere, as `bdpt`",
+            .help = "Where `vcm` merges. `sds`: where both subpaths have come by a mirror or smooth glass. `all`: at "
+                    "every vertex. `none`: nowhere, so that it is `bdpt`",
             .page = "integrators.md#vcm",
             .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merging.at; })},
     Setting{.pointer = "/integrator/merge_radius",
@@ -122,14 +123,14 @@ inline constexpr std::array kTransportSettings{
             .type = RealNumber{{.min = 0.01, .max = 100.0}},
             .decides = Decides::Samples,
             .unit = "pixels",
-            .help = "Radius within which `vcm` merges in the first sample of a pixel. It is smaller in later samples",
+            .help = "Radius within which `vcm` merges in the first sample of a pixel; the radius shrinks in later ones",
             .page = "integrators.md#vcm",
             .place = at([](auto& s) -> auto& { return s.integrator.merging.radius; })},
     Setting{.pointer = "/integrator/merge_alpha",
             .type = RealNumber{{.min = 0.1, .max = 1.0}},
             .decides = Decides::Samples,
-            .help = "How slowly the merge radius of `vcm` shrinks: by the number of samples to the power (merge_alpha "
-                    "- 1) / 2. With 1 it stays, and so does its blur",
+            .help = "How slowly the merge radius of `vcm` shrinks: it is proportional to the number of samples to the "
+                    "power (merge_alpha - 1) / 2. With 1, the radius and its blur stay",
             .page = "integrators.md#vcm",
             .place = at([](auto& s) -> auto& { return s.integrator.merging.alpha; })},
 };

@@ -113,7 +113,7 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
     const int longest = longest_shown(request, lengths);
     if (longest < lengths.max_depth && !quiet)
         log_warning(
-            "note: {} shows the strategies of paths of up to {} edges, of {}; a larger --strategies-depth shows more",
+            "note: {} shows the strategies of paths of up to {} of {} edges; a larger --strategies-depth shows more",
             request.output.string(), longest, lengths.max_depth);
     ProgressDisplay display(title + " strategies", quiet);
     std::vector<Strategy> wanted = shown_strategies(request, lengths);

@@ -1,4 +1,4 @@
-// Shadow catchers and holdouts: the camera sees the shadow on the one, and nothing of the other.
+// Shadow catchers and holdouts: the camera sees only the shadow on a catcher, and a hole in the place of a holdout.
 #pragma once
 
 #include "sampling/sampler.h"

@@ -13,12 +13,12 @@
 
 namespace etendue {
 
-/// Traces the rays of one sample from the eye, one by one: so whoever renders takes part in a scalar algorithm, and
-/// counts them.
+/// Traces the rays of one sample from the eye, one by one. A renderer implements this class to trace and count the rays
+/// of a scalar algorithm.
 class SampleTracer {
   public:
     virtual ~SampleTracer() = default;
-    /// Returns what `ray` meets first, which has `ends` and is number `number` of its path; 1 comes from the camera.
+    /// Returns the first hit of `ray`, which has `ends` and is ray `number` of its path; ray 1 comes from the camera.
     [[nodiscard]] virtual Hit nearest_hit(const Ray& ray, int number, RayEnds ends) = 0;
     /// Returns what `SceneGeometry::occluded` says of `ray`.
     [[nodiscard]] virtual std::uint8_t occluded(const Ray& ray) = 0;

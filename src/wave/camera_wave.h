@@ -54,10 +54,10 @@ enum class SampleOrder : std::uint8_t {
 }
 
 /// Tells the profile of `job`, if there is one, of the end of the eye path of `sample` after `rays` rays.
-inline void end_eye_path(const TileJob& job, const CameraSample& sample, PathEnding ending, int rays) {
+inline void count_eye_path_end(const TileJob& job, const CameraSample& sample, PathEnding ending, int rays) {
     if (job.profile == nullptr) return;
     const Vec2i pixel = pixel_position(job, sample.pixel);
-    job.profile->end_eye_path(ending, {pixel.x, pixel.y, sample.key.index, rays});
+    job.profile->count_eye_path_end(ending, {pixel.x, pixel.y, sample.key.index, rays});
 }
 
 /// Makes the camera rays of samples [first, first + rays.size()) of the job.

@@ -35,7 +35,7 @@ constexpr float kLeastCell = 1.0f / 64.0f;
 /// Gives the distance of the rays whose difference is the derivative, in sizes of the cell, or of a pixel if that is
 /// smaller.
 constexpr float kDifference = 0.02f;
-/// Bounds that distance from below, in widths of the image: sixteen steps of floats.
+/// Bounds the distance of these rays from below, in widths of the image: sixteen steps of floats.
 constexpr float kLeastDifference = 0x1p-19f;
 /// Multiplies how far the derivative says that the way moves within a cell, as the way to the lamp is curved.
 constexpr float kMargin = 1.5f;

@@ -1,4 +1,4 @@
-// What lamps a point of the film shows by way of deltas.
+// The lamps that a point of the film shows by way of deltas.
 #pragma once
 
 #include "core/rgb.h"

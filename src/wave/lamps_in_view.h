@@ -98,8 +98,8 @@ class LampsInView {
     Share share_;
     bool is_active_ = false;
     PathLengths lengths_;
-    const LampImages* images_ = nullptr;        ///< null if there are none
-    std::vector<LampSeen> seen_;                ///< lamps that the sample at hand of an image has found
+    const LampImages* images_ = nullptr;        ///< images of lamps; null if there are none
+    std::vector<LampSeen> seen_;                ///< lamps that the current sample of an image has found
     PixelRect around_;                          ///< the job's rectangle with the neighbours of its pixels
     std::vector<std::uint32_t> first_samples_;  ///< by pixel of the tile; kNone of those without samples
     std::vector<Met> met_;

@@ -30,8 +30,8 @@ class OneKindTracer : public SampleTracer {
     RenderCounters& counters_;
 };
 
-/// Returns what the camera sees in the place of the surface that `ray`, within `interior`, has met at `hit`. The shadow
-/// rays are those of the sample with this key, and are counted in its `slot` of `light`.
+/// Returns what the camera sees in the place of the surface that `ray`, within `interior`, has met at `hit`. Shadow
+/// rays use the random numbers of the sample with `key`, and are counted in `slot` of `light`.
 [[nodiscard]] inline SeenInPlace trace_seen_in_place(const World& world, const TileJob& job, const Ray& ray,
                                                      const Interior& interior, const Hit& hit, SampleKey key,
                                                      std::uint32_t slot, SampleLight& light, RenderCounters& counters) {

@@ -14,10 +14,10 @@
 
 namespace etendue {
 
-/// Returns where rays of this kind have ends.
+/// Returns which ends rays of `kind` have.
 [[nodiscard]] RayEnds ends_of(RayKind kind);
 
-/// Has `intersect` find what `rays` hit, counts them, and times it for a profile.
+/// Lets `intersect` find what `rays` hit, counts the rays, and times the search for a profile.
 template <typename Batch, typename Intersect>
 void count_intersections(const TileJob& job, RayKind kind, const Batch& rays, std::span<const Hit> hits,
                          RenderCounters& counters, const Intersect& intersect) {
@@ -76,11 +76,11 @@ void occluded_batch(const World& world, const TileJob& job, RayKind kind, const 
 [[nodiscard]] std::uint8_t occluded_one(const World& world, const TileJob& job, RayKind kind, const Ray& ray,
                                         RenderCounters& counters);
 
-/// Returns what the camera shows along `ray`, which has passed clear surfaces at most and has met `hit`: what lies
-/// behind surfaces that are hidden from it, unless that lies too far. A ray that looks again counts as one of the
-/// sample in `slot` of `light`.
-[[nodiscard]] inline Hit shown_hit(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
-                                   std::uint32_t slot, SampleLight& light, RenderCounters& counters) {
+/// Returns the hit that the camera shows along `ray`, which has passed clear surfaces at most and has met `hit`: the
+/// nearest that is not hidden from the camera, or none if that lies too far away. If another ray is traced for it, this
+/// ray counts for the sample in `slot` of `light`.
+[[nodiscard]] inline Hit hit_seen_by_camera(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
+                                            std::uint32_t slot, SampleLight& light, RenderCounters& counters) {
     Hit shown = hit;
     if (world.materials().is_hidden_from_camera(hit)) {
         shown = intersect_one(world, job, RayKind::Primary, ray, counters);

@@ -191,7 +191,8 @@ std::vector<Vec3f> planes_through(const WorldData& data, const Vec3f& point) {
         const PlacedTriangle triangle = place(data, instance, geometry, t);
         if (triangle.is_degenerate()) return true;
         const Vec3f normal(triangle.normal);
-        const double distance = touching_distance(triangle.clearance, static_cast<double>(clearance(normal, error)));
+        const double distance =
+            point_contact_distance(triangle.clearance, static_cast<double>(clearance(normal, error)));
         if (!is_near(triangle, Vec3d(point), distance)) return true;
         const Vec3f plane(triangle.normal * distance);
         const auto same = std::ranges::find_if(planes, [&](const Vec3f& other) {

@@ -104,7 +104,7 @@ class TouchFinder {
         return true;
     }
 
-    /// Grows a box around a part of the surface `slot` by a few times what rounding may move anything in it.
+    /// Grows a box around a part of the surface `slot` by a few times what rounding may move a point of it.
     void grow(Bounds& bounds, const Slot& slot) const {
         const Vec3f extent = max_components(abs_components(bounds.min), abs_components(bounds.max));
         const float size = data_.size_of_slot[slot.index];

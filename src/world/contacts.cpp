@@ -20,9 +20,9 @@ const Material& material_of(const WorldData& data, const Hit& hit) {
     return data.materials[data.geometries[hit.geometry].material];
 }
 
-/// Returns TrianglePlane::rounding. Positions are less exact the farther a surface is from zero, and distances the
-/// longer rays are, even where the surface lies in a plane through zero. Who is several times a mesh's size away from
-/// it need not tell it from what lies on it.
+/// Returns TrianglePlane::rounding. Positions are less exact the farther a surface is from zero. Hit distances are less
+/// exact the longer rays are, even where the surface lies in a plane through zero. Rays that come from several times
+/// the size of a mesh away need not tell the mesh from what lies on it.
 float rounding_of(const WorldData& data, std::uint32_t instance, std::uint32_t geometry) {
     constexpr float kLargestSize = 64.0f;  // metres; larger meshes, as of a whole town, are seen from within
     return 0.5f * kPositionError * std::min(kLargestSize, data.size_of_slot[slot_of(data, instance, geometry)]);

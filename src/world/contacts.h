@@ -60,24 +60,24 @@ struct ContactInteriors {
     Interior behind;
 };
 
-/// Returns the metres within which a point and a surface count as touching, of what clears each of them.
+/// Returns the distance, metres, within which a point and a surface with these two clearances count as touching.
 template <typename T>
-[[nodiscard]] constexpr T touching_distance(T clearance, T other) {
+[[nodiscard]] constexpr T point_contact_distance(T clearance, T other) {
     return T(2) * (clearance + other);
 }
-/// Returns the metres within which two surfaces with a clearance and a rounding count as one: rays tell nearer ones
-/// apart neither where they start nor where they arrive.
+/// Returns the distance, metres, within which two surfaces with a clearance and a rounding count as one: rays cannot
+/// tell nearer surfaces apart, neither where the rays start nor where they arrive.
 template <typename Surface>
 [[nodiscard]] constexpr auto contact_distance(const Surface& a, const Surface& b) {
     const auto rounding = std::min(a.rounding, b.rounding);
-    return std::max(touching_distance(a.clearance, b.clearance), touching_distance(rounding, rounding));
+    return std::max(point_contact_distance(a.clearance, b.clearance), point_contact_distance(rounding, rounding));
 }
 
 /// Holds the plane of a triangle of an instance.
 struct TrianglePlane {
     Vec3f normal{0.0f};      ///< unit, on the front; zero if the triangle has no area
     float clearance = 0.0f;  ///< distance from the plane that clears it, metres
-    float rounding = 0.0f;  ///< error of the distances at which rays from several times the mesh's size meet it, metres
+    float rounding = 0.0f;   ///< error of the distance of a hit from several times the mesh's size away, metres
 };
 [[nodiscard]] TrianglePlane triangle_plane(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
                                            std::uint32_t triangle);

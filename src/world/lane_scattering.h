@@ -6,20 +6,20 @@
 
 namespace etendue {
 
-/// Density, 1/sr, with which a walk from the eye leaves a diffuse surface along `w`, which is local.
+/// Returns the density, 1/sr, with which a walk from the eye leaves a diffuse surface along `w`, which is local.
 template <typename T>
 [[nodiscard]] inline T diffuse_pdf_for_eye(const LeaningNormal<T>& leaning, const Imath::Vec3<T>& w) {
     const T both = cosine_hemisphere_pdf_solid_angle(w) + cosine_hemisphere_pdf_solid_angle(leaning.mirrored(w));
     return select(leaning.side(w) > T(0.0f), both, T(0.0f));
 }
 
-/// Density, 1/sr, with which a walk from a light leaves a diffuse surface along `w`, which is local.
+/// Returns the density, 1/sr, with which a walk from a light leaves a diffuse surface along `w`, which is local.
 template <typename T>
 [[nodiscard]] inline T diffuse_pdf_for_light(const LeaningNormal<T>& leaning, const Imath::Vec3<T>& w) {
     return max(T(0.0f), leaning.side(w)) * kInvPi;
 }
 
-/// f |cos| and the density of `sample_diffuse` towards `w`, which is local.
+/// Returns f |cos| and the density of `sample_diffuse` towards `w`, which is local.
 template <typename T>
 [[nodiscard]] inline BasicBsdfValue<T> evaluate_diffuse(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
                                                         const Imath::Vec3<T>& w, TransportMode mode) {
@@ -33,7 +33,7 @@ template <typename T>
     return {albedo * above, diffuse_pdf_for_eye(leaning, w)};
 }
 
-/// A direction in which a diffuse surface sends a walk on, in world space. `u` in [0, 1)².
+/// Samples, by `u` in [0, 1)², a direction in world space in which a walk leaves a diffuse surface.
 template <typename T>
 [[nodiscard]] inline BasicBsdfSample<T> sample_diffuse(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
                                                        const Imath::Vec2<T>& u, TransportMode mode) {

@@ -11,8 +11,8 @@ namespace etendue {
 struct WorldData;
 
 /// Describes what most surfaces are: triangles, placed once or copied, and still. They do not emit light, bound no
-/// body, and have no relief; they are diffuse, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex
-/// colours, whose base colour, metalness and roughness may come from textures that share a set of coordinates.
+/// body, and have no relief. They are diffuse, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex
+/// colours; the latter's base colour, metalness and roughness may come from textures that share a set of coordinates.
 struct PlainSurface {
     const Bsdf* diffuse = nullptr;        ///< its Diffuse lobe, or null
     Rgb albedo{};                         ///< albedo of the Diffuse lobe
@@ -20,7 +20,7 @@ struct PlainSurface {
     const GltfModel* textured = nullptr;  ///< the model whose textures change the lobe, or null
     int texcoord = 0;                     ///< the set of coordinates that these textures share
 
-    /// The lobe of one that is neither diffuse nor textured, else null.
+    /// Returns the lobe of a surface that is neither diffuse nor textured, else null.
     [[nodiscard]] const MetallicRoughness* untextured_lobe() const {
         return diffuse == nullptr && textured == nullptr ? &glossy : nullptr;
     }

@@ -181,7 +181,7 @@ TEST_F(BatchPlanTest, IsSummedUp) {
 TEST_F(BatchPlanTest, LeavesOutWhatAnotherBatchRenders) {
     BatchPlan plan(2, unit_);
     plan[0].reason = "running elsewhere: host:1";
-    plan[0].is_elsewhere = true;
+    plan[0].is_running_elsewhere = true;
     plan[0].estimated_seconds = 40.0;
     plan[0].error = "error: no such file";
     const std::string alone = to_table(plan);

@@ -30,7 +30,7 @@ class BatchUnits : public testing::Test {
                              })
             .chosen;
     }
-    /// Why there are no tasks; empty if there are.
+    /// Returns the error that leaves no tasks; empty if there are tasks.
     [[nodiscard]] std::string message(const Names& variants = {}) const try {
         (void)collect(variants);
         return "";

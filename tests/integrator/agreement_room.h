@@ -5,7 +5,7 @@
 
 namespace etendue::test {
 
-/// glTF's model: diffuse below a glossy layer.
+/// Returns glTF's model of plastic: diffuse below a glossy layer.
 [[nodiscard]] MaterialDesc gltf_plastic();
 /// Copper; a mirror if `roughness` is 0.
 [[nodiscard]] MaterialDesc conductor(float roughness);

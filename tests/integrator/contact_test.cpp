@@ -110,7 +110,7 @@ TEST(Contact, AStackOfThreeLosslessSlabsDoesNotShow) {
     }
 }
 
-/// Both as one mesh.
+/// Returns both as one mesh.
 PrimitiveDesc joined(PrimitiveDesc mesh, const PrimitiveDesc& other) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
@@ -290,7 +290,7 @@ TEST(Contact, InstancesOfOneSheetInOnePlaceAreAsManyAsThereAre) {
         }
 }
 
-/// A white wall in the plane z = `plane` and a tinted sheet on it, either of which is the first of the file.
+/// Makes a white wall in the plane z = `plane` and a tinted sheet on it; either of them may be the first of the file.
 SceneDesc sheet_on_a_wall(float plane, bool sheet_is_first, float gap) {
     SceneDesc scene;
     set_environment(scene);
@@ -317,7 +317,7 @@ TEST(Contact, ASheetOnAWallInAPlaneThroughZeroIsSeen) {
                         << integrator << ", plane " << plane << ", " << with_gap("", gap) << sheet_is_first;
 }
 
-/// A lamp on a sheet that transmits, in the plane z = `plane`, between two white walls.
+/// Makes a lamp on a sheet that transmits, in the plane z = `plane`, between two white walls.
 SceneDesc lamp_on_a_sheet(float plane, bool sheet_is_first, float roughness) {
     SceneDesc scene;
     MaterialDesc sheet = tinted_sheet();

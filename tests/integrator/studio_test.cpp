@@ -34,7 +34,7 @@ void look_at(SceneDesc& scene, const Vec3f& eye, const Vec3f& target) {
     camera.yfov = 0.8f;
 }
 
-/// A diffuse and a mirroring ball, and one of glass, in the studio.
+/// Makes a diffuse ball, a mirroring ball and a ball of glass in the studio.
 SceneDesc balls_in_studio() {
     SceneDesc scene = empty_scene();
     MaterialDesc mirror;

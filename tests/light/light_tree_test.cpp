@@ -144,7 +144,7 @@ double importance(const LightBounds& light, double power, const LightReceiver& r
     return power / light.cone.measure() * emitted * received;
 }
 
-/// Bare points, diffuse surfaces and glossy ones in turn.
+/// Returns bare points, diffuse surfaces and glossy surfaces in turn.
 LightReceiver random_receiver(Random& random, float size, int i) {
     LightReceiver receiver(random_point(random, size));
     if (i % 3 == 0) return receiver;

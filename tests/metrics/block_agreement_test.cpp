@@ -74,10 +74,10 @@ TEST(BlockAgreement, SaysWhatItCouldSee) {
     const BlockAgreement result = test_agreement(a, b, {.block_size = 4});
     EXPECT_NEAR(result.block_error, 0.1, 1e-6);
     EXPECT_NEAR(result.mean_error, std::sqrt(32.0 * 0.16) / 48.0, 1e-6);
-    EXPECT_FALSE(result.only_whole);
+    EXPECT_FALSE(result.whole_image_only);
     const BlockAgreement whole = test_agreement(a, b, {.block_size = 16});
     EXPECT_NEAR(whole.block_error, result.mean_error, 1e-6);
-    EXPECT_TRUE(whole.only_whole);
+    EXPECT_TRUE(whole.whole_image_only);
     EXPECT_NE(whole.str().find("of the whole image agree"), std::string::npos) << whole.str();
 }
 

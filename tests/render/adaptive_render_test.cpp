@@ -124,7 +124,7 @@ TEST_P(AdaptiveRender, IsTheSameForAnyThreadsAndOrderAndStops) {
 INSTANTIATE_TEST_SUITE_P(Integrators, AdaptiveRender, testing::Values("path", "bdpt"),
                          [](const auto& test) { return test.param; });
 
-// They make passes of their own, but the error is asked for where those of others end.
+// Samples that merge make passes of their own, but the error is estimated only where the usual passes end.
 TEST(AdaptiveVcm, APauseBetweenSamplesThatMergeDecidesNothing) {
     const World world = compile(busy_scene(40, 25));
     const auto integrator = make_integrator("vcm", {});

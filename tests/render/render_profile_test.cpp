@@ -142,8 +142,8 @@ TEST(RenderProfile, EveryShadowRayOfACatcherIsOfALightSample) {
 
 TEST(RenderProfile, IsOfAllThreads) {
     RenderProfile profile(2, 0);
-    profile.wave(0).end_eye_path(PathEnding::Escaped, {.rays = 1});
-    profile.wave(1).end_eye_path(PathEnding::Escaped, {.rays = 2});
+    profile.wave(0).count_eye_path_end(PathEnding::Escaped, {.rays = 1});
+    profile.wave(1).count_eye_path_end(PathEnding::Escaped, {.rays = 2});
     profile.add_tile({.rect = {0, 0, 1, 1}, .slot = 1, .start = 1.0, .end = 2.0});
     profile.add_tile({.rect = {1, 0, 2, 1}, .slot = 0, .start = 0.5, .end = 3.0});
     profile.add_splatting(0.25);

@@ -58,7 +58,7 @@ TEST(SeedValues, AreSummedUp) {
     EXPECT_TRUE(std::isnan(SeedValues{}.mean()));
 }
 
-/// What is printed of comparisons of variants with the same expected error.
+/// Counts what is printed of comparisons of variants with the same expected error.
 struct PrintedIntervals {
     double printed = 0.0;  ///< share of all comparisons that have an interval
     double wrong = 0.0;    ///< share of all comparisons whose interval misses the true ratio, 1
@@ -95,8 +95,8 @@ TEST(HeavyTail, LeavesIntervalsThatHold95Percent) {
     }
 }
 
-// Without a look at the tails 35% and 9% to 15% of all intervals missed. Less than 2% miss of those that are printed of
-// all comparisons: 5% are ten standard deviations off.
+// Without a look at the tails, 35% and 9% to 15% of all intervals missed. Now less than 2% of all comparisons print an
+// interval that misses: 5% are ten standard deviations off.
 TEST(HeavyTail, LeavesFewWrongIntervalsWhereOneSeedHoldsMost) {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     const auto pareto = [&](std::mt19937& generator) { return std::pow(1.0 - uniform(generator), -1.0 / 1.1); };
@@ -122,7 +122,7 @@ TEST(HeavyTail, SaysWhatHoldsTheError) {
 TEST(ComparisonReport, ATestOfTheWholeImageAloneIsNoAgreement) {
     PairReport pair{.agreement = BlockAgreement{.blocks_agree = true, .means_agree = true, .tests = 12, .worst = {}}};
     EXPECT_EQ(pair.verdict(), "agree");
-    pair.agreement->only_whole = true;
+    pair.agreement->whole_image_only = true;
     EXPECT_EQ(pair.verdict(), "no difference seen");
 }
 

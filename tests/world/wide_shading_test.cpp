@@ -37,9 +37,9 @@ TEST(WideShading, PointsOfTrianglesAreThoseOfFloat) {
     EXPECT_EQ(Vec3f(flat.x[0], flat.y[0], flat.z[0]), Vec3f(0.0f, 0.6f, 0.8f)) << "no normals at the vertices";
 }
 
-/// f cos, its density and a sample of a diffuse surface that leans away from its geometric normal.
+/// Returns f cos, its density and a sample of a diffuse surface whose normal leans away from the geometric normal.
 template <typename T, typename Value>
-std::array<T, 8> scattered_diffusely(const std::array<T, 14>& in, const Value& value) {
+std::array<T, 8> diffuse_values(const std::array<T, 14>& in, const Value& value) {
     const Imath::Vec3<T> geometric = normalize(vec(in, 0));
     const auto frame = BasicFrame<T>::from_normal(normalize(geometric + vec(in, 3) * T(0.3f)));
     return value(frame, geometric, normalize(vec(in, 6)), normalize(vec(in, 9)),
@@ -56,7 +56,7 @@ TEST(WideShading, DiffuseSurfacesScatterAsTheLobeDoes) {
         return std::array{value.f_cos.r, value.f_cos.b, value.pdf_solid_angle, sample.wi.x,
                           sample.wi.y,   sample.wi.z,   sample.weight.g,       sample.pdf_solid_angle};
     };
-    EXPECT_LE((largest_lane_difference<14>(-1.0f, 1.0f, [&](const auto& in) { return scattered_diffusely(in, wide); })),
+    EXPECT_LE((largest_lane_difference<14>(-1.0f, 1.0f, [&](const auto& in) { return diffuse_values(in, wide); })),
               32.0f);
 
     // The reference is what all other lobes go through.
@@ -73,8 +73,8 @@ TEST(WideShading, DiffuseSurfacesScatterAsTheLobeDoes) {
     for (int i = 0; i < 100'000; ++i) {
         std::array<float, 14> in{};
         for (float& number : in) number = 2.0f * random.next() - 1.0f;
-        const auto expected = scattered_diffusely(in, general);
-        const auto found = scattered_diffusely(in, wide);
+        const auto expected = diffuse_values(in, general);
+        const auto found = diffuse_values(in, wide);
         ASSERT_EQ(found[6] > 0.0f, expected[6] > 0.0f);
         for (const std::size_t o : {0u, 1u, 2u}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
         // A ratio of cosines, which may be small.

@@ -37,10 +37,10 @@ class GgxView {
         const Vec3f wi = h * (2.0f * dot(wo_, h)) - wo_;
         return wi.z > 0.0f ? weight(wi) : 0.0f;
     }
-    /// Shares of light that leave an interface, and one that reflects only where it does so totally.
+    /// Holds the share of light that leaves an interface, and the share if it reflects only where reflection is total.
     struct InterfaceWeights {
         float fresnel;
-        float clear;
+        float total_only;
     };
     /// Returns the shares of the light at the facet `h` that leave interfaces to an index `eta` times that on this
     /// side; `reflected` is `weight_reflected(h)`, which serves every index.

@@ -35,8 +35,8 @@ struct Directional {
     double single = 0.0;
     std::array<double, kEtasOutside> outside{};
     std::array<double, kEtasInside> inside{};
-    std::array<double, kEtasOutside> clear_outside{};
-    std::array<double, kEtasInside> clear_inside{};
+    std::array<double, kEtasOutside> total_only_outside{};
+    std::array<double, kEtasInside> total_only_inside{};
 };
 
 /// The same normals serve every index of refraction.
@@ -52,14 +52,14 @@ Directional integrate(float alpha, float cos_theta) {
         const float reflected = view.weight_reflected(h);
         sum.single += static_cast<double>(reflected);
         for (std::size_t e = 0; e < kEtasOutside; ++e) {
-            const auto [fresnel, clear] = view.weights_of_interface(h, reflected, outside[e]);
+            const auto [fresnel, total_only] = view.weights_of_interface(h, reflected, outside[e]);
             sum.outside[e] += static_cast<double>(fresnel);
-            sum.clear_outside[e] += static_cast<double>(clear);
+            sum.total_only_outside[e] += static_cast<double>(total_only);
         }
         for (std::size_t e = 0; e < kEtasInside; ++e) {
-            const auto [fresnel, clear] = view.weights_of_interface(h, reflected, inside[e]);
+            const auto [fresnel, total_only] = view.weights_of_interface(h, reflected, inside[e]);
             sum.inside[e] += static_cast<double>(fresnel);
-            sum.clear_inside[e] += static_cast<double>(clear);
+            sum.total_only_inside[e] += static_cast<double>(total_only);
         }
     }
     return sum;
@@ -73,11 +73,11 @@ void fill_directional(Tables& tables) {
             tables.single[a][c] = static_cast<float>(sum.single / kSamples);
             for (std::size_t e = 0; e < kEtasOutside; ++e) {
                 tables.outside[e][a][c] = static_cast<float>(sum.outside[e] / kSamples);
-                tables.clear_outside[e][a][c] = static_cast<float>(sum.clear_outside[e] / kSamples);
+                tables.total_only_outside[e][a][c] = static_cast<float>(sum.total_only_outside[e] / kSamples);
             }
             for (std::size_t e = 0; e < kEtasInside; ++e) {
                 tables.inside[e][a][c] = static_cast<float>(sum.inside[e] / kSamples);
-                tables.clear_inside[e][a][c] = static_cast<float>(sum.clear_inside[e] / kSamples);
+                tables.total_only_inside[e][a][c] = static_cast<float>(sum.total_only_inside[e] / kSamples);
             }
         }
     }
@@ -131,8 +131,8 @@ void fill_averages(Tables& tables) {
             };
             tables.dielectric_average[0][e][i] = outside(tables.outside);
             tables.dielectric_average[1][e][i] = inside(tables.inside);
-            tables.clear_average[0][e][i] = outside(tables.clear_outside);
-            tables.clear_average[1][e][i] = inside(tables.clear_inside);
+            tables.total_only_average[0][e][i] = outside(tables.total_only_outside);
+            tables.total_only_average[1][e][i] = inside(tables.total_only_inside);
         }
     }
 }

@@ -1,8 +1,8 @@
 """Writes compile_commands.json anew without headers compiled ahead, which clang cannot read where g++ wrote them.
 
-Builds compile sources together, so that CMake's file has entries for those groups only. By default each source gets an
-entry of its own: clang then says where one does not include what it uses. With --together groups stay, which are read in
-an eighth of the time.
+Builds compile sources together, so that CMake's file has entries for those groups only. By default, each source gets
+an entry of its own, so that clang says where a source does not include what it uses. With --together, groups stay
+together, and clang reads them in an eighth of the time.
 
 Usage: single_sources.py COMPILE_COMMANDS OUTPUT [--together]
 """
@@ -14,9 +14,9 @@ from pathlib import Path
 
 
 def commands(entry, together):
-    """The entries of the sources that the one of CMake compiles."""
+    """Returns the entries for the sources that CMake's `entry` compiles: one each, or itself if `together`."""
     command = re.sub(r" -Winvalid-pch -include \S+", "", entry["command"])
-    # g++'s own warning; in sources together, the strict one would find what their neighbours declare.
+    # Only g++ knows -Wshadow=local. In a group, the strict -Wshadow would find what other sources of it declare.
     command = command.replace(" -Wshadow=local", "" if together else " -Wshadow")
     file = entry["file"]
     if together or not Path(file).name.startswith("unity_"):

@@ -62,7 +62,7 @@ def on_main_thread(function: Callable[[], Any], is_stopped: Callable[[], bool]) 
 
 
 def foreign_materials(depsgraph: Any) -> list[Any]:
-    """Returns the materials of what modifiers give other materials than the object has itself, each once."""
+    """Returns, each once, the materials of objects whose modifiers set other materials than the object's own."""
     found: dict[Any, None] = {}
     items: dict[Any, None] = {}
     for instance in depsgraph.object_instances:
@@ -100,8 +100,8 @@ def carried(materials: list[Any], scene: Any) -> Iterator[None]:
 
 @contextmanager
 def colors_of_corners() -> Iterator[None]:
-    """Has the exporter of Blender 3.4 give each corner of a face the colour that it has while this lasts: by itself, it
-    takes the number of the corner's vertex for that of the corner. Later exporters, which are right, have no such
+    """Makes the exporter of Blender 3.4 give each corner of a face its own colour while this lasts: that exporter takes
+    the number of the corner's vertex for the number of the corner. Later exporters are right, and have no such
     method."""
     name = "_PrimitiveCreator__get_color_attribute"
     try:

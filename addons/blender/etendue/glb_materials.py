@@ -13,9 +13,9 @@ STRENGTH, TRANSFORM = "KHR_materials_emissive_strength", "KHR_texture_transform"
 
 def mend(document: Document, binary: bytes, written: Written, image_bytes: Callable[[Any, bool], tuple[bytes, str]],
          uv_set: Callable[[str, str], int]) -> bytes:
-    """Makes all changes that reading the materials has asked for. `image_bytes` has the file of an image and its media
-    type, with its colours times its alpha if so asked, `uv_set` the number of a UV map on the meshes of a material, by
-    their names. Returns the binary part with the images."""
+    """Makes all changes that reading the materials has asked for. `image_bytes` returns the file of an image and its
+    media type, with colours times alpha if its second argument is true; `uv_set` returns the number of a UV map on the
+    meshes of a material, by the names of both. Returns the binary part with the images."""
     leave_out(document, written.left_out)
     strip(document, written.bare, written.dark)
     shine_both_ways(document)
@@ -44,8 +44,8 @@ def override(document: Document, name: str) -> None:
 
 
 def give_parts(document: Document, parts: Mapping[int, Sequence[Any]], materials: Sequence[Any]) -> list[int]:
-    """Gives the primitives of the meshes of nodes, by their numbers, the materials that they are rendered with, None
-    for none. `materials` are those of the file. Returns the nodes where that is not possible."""
+    """Gives the mesh of each node in `parts`, by the node's number, the materials that its primitives are rendered
+    with; None is for no material. `materials` are those of the file. Returns the nodes where that is not possible."""
     failed, copies = [], {}
     for number, wanted in parts.items():
         node = document["nodes"][number]
@@ -122,10 +122,10 @@ def blend(document: Document, names: Collection[str], alphas: Mapping[str, float
 
 def add_textures(document: Document, binary: bytes, textures: Mapping[str, Texture],
                  image_bytes: Callable[[Any, bool], tuple[bytes, str]], uv_set: Callable[[str, str], int]) -> bytes:
-    """Gives materials images as their base colours, where the exporter has none, or where their alpha counts or darkens
-    them."""
+    """Gives materials images as base colours, where the exporter has no image, or where the image's alpha counts or
+    darkens its colours."""
     data = bytearray(binary)
-    # Images, which may have equal names, with whether their alpha darkens them, and their numbers.
+    # An image, with whether its alpha darkens it, and its number; different images may have equal names.
     sources: list[tuple[tuple[Any, bool], int]] = []
     for name, texture in textures.items():
         for material in named(document, {name}):

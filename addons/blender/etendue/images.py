@@ -40,7 +40,7 @@ def image_bytes(image: Any, path: Path | None, times_alpha: bool = False) -> tup
         color = numpy.clip(pixels[..., :3], 0.0, 1.0)
         color = numpy.where(color <= 0.0031308, 12.92 * color, 1.055 * color ** (1.0 / 2.4) - 0.055)
         pixels = numpy.concatenate([color, pixels[..., 3:]], axis=2)
-    if times_alpha:  # of encoded colours, as Cycles does
+    if times_alpha:  # Cycles multiplies encoded colours, too.
         pixels = numpy.concatenate([pixels[..., :3] * pixels[..., 3:], numpy.ones_like(pixels[..., 3:])], axis=2)
     return png(numpy.rint(numpy.clip(pixels, 0.0, 1.0) * 255.0).astype(numpy.uint8)), "image/png"
 

@@ -10,7 +10,7 @@ from .nodes import Seen, active_output
 from .written import Document, Written
 
 LEAST_SPREAD = math.radians(1.0)
-ANY_BOUNCES = 1024  # of light, after which a lamp or a world is still seen, unless another number is given
+DEFAULT_MAX_BOUNCES = 1024  # bounces of light after which a lamp or a world is still seen, by default
 
 
 def is_portal(light: Any) -> bool:

@@ -11,18 +11,18 @@ from .textures import all_behind, laid
 from .vertex_colors import attributes_at
 from .written import Written
 
-Users = list[tuple[set[Any], Any]]  # of each mesh, the names of its materials, and the object that has it
+Users = list[tuple[set[Any], Any]]  # for each object with a mesh: the names of its materials, and the object
 
 
 def users(items: Iterable[Any], names: dict[Any, str], override: Any) -> Users:
-    """Returns the meshes among the objects that have one of their own, each with what uses it."""
+    """Returns, for each of the objects that is a mesh, the names of its materials, and the object."""
     return [({names.get(material.original) for slot in item.material_slots if (material := override or slot.material)},
              item) for item in items if item.type == "MESH"]
 
 
 def uv_sets(meshes: Users, written: Written) -> Callable[[str, str], int]:
-    """Returns a function that has the number of a UV map on the meshes that have a material, by their names; an empty
-    name is for the map that is rendered."""
+    """Returns a function from the names of a material and of a UV map to the number of that map on the meshes with the
+    material; an empty name is for the map that is rendered."""
     def number(material: str, uv_map: str) -> int:
         found = {index for used, item in meshes if material in used for index, layer in enumerate(item.data.uv_layers)
                  if (layer.name == uv_map if uv_map else layer.active_render)}
@@ -33,7 +33,7 @@ def uv_sets(meshes: Users, written: Written) -> Callable[[str, str], int]:
     return number
 
 
-def uv_maps_before(shaders: Iterable[Any]) -> Iterator[str]:
+def uv_maps_behind(shaders: Iterable[Any]) -> Iterator[str]:
     """Yields the names of the UV maps that lay images of shaders, and of those whose tangents turn their normals."""
     for shader in shaders:
         if shader.type in ("MIX_SHADER", "ADD_SHADER"):
@@ -51,7 +51,7 @@ def missing(meshes: Users, written: Written) -> Iterator[str]:
         return [item for used, item in meshes if material in used and name not in there(item.data)]
 
     for material, shaders in written.shown.items():
-        for name in sorted(set(uv_maps_before(shaders)) - {""}):
+        for name in sorted(set(uv_maps_behind(shaders)) - {""}):
             yield from said(f"material '{material}': there is no UV map '{name}', and another is in its place",
                             lacking(material, lambda mesh: [layer.name for layer in mesh.uv_layers], name))
         for name in sorted(set(sum(attributes_at(shaders), [])) - {""}):
@@ -60,7 +60,8 @@ def missing(meshes: Users, written: Written) -> Iterator[str]:
 
 
 def tangents(written: Written, uv_set: Callable[[str, str], int]) -> Iterator[str]:
-    """Says where other tangents turn the normals of an image than those of the UV map that lays it, which glTF has."""
+    """Says where a normal map is for the tangents of another UV map than the one that lays its image: glTF has no such
+    maps."""
     for material, (image, tangent) in written.tangents.items():
         if uv_set(material, image) != uv_set(material, tangent):
             yield f"material '{material}': the tangents of its normal map are those of the UV map that lays it"

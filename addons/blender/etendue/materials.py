@@ -16,11 +16,11 @@ COLOR, TRANSMISSION = ("Base Color",), ("Transmission Weight", "Transmission")
 EMISSION = ("Emission Color", "Emission")
 # Names of factors, those of inputs, and values of the Principled BSDF.
 FACTORS = (("metallic", ("Metallic",), 0.0), ("roughness", ("Roughness",), 0.5), ("transmission", TRANSMISSION, 0.0))
-# Other inputs that are brought over as constants alone.
+# Other inputs, of which only constants are brought over.
 CONSTANTS = (("IOR",), ("Sheen Weight", "Sheen"), ("Sheen Tint",), ("Sheen Roughness",), ("Thin Film Thickness",),
              ("Thin Film IOR",), ("Anisotropic Rotation",), ("Tangent",))
 GLOSSY = ("BSDF_GLOSSY", "BSDF_ANISOTROPIC")
-BODY = 0.85  # coverage from which on a body without transparency is nearer to Cycles than a sheet with it
+BODY = 0.85  # least coverage at which a body without transparency is nearer to Cycles than a transparent sheet
 
 
 def clamped(color: Any) -> list[float]:
@@ -163,12 +163,13 @@ class Reader:
         return result
 
     def thin(self, result: Document, coverage: float | None = None) -> Document:
-        """Makes a sheet of a body of this coverage, None for an image: the renderer does not look at a body's alpha."""
+        """Makes a body a sheet if its coverage is low, or an image (None): the renderer does not look at the alpha of
+        bodies."""
         if "solid" in result and (coverage is None or coverage < BODY):
             del result["solid"]
             self.note("it is partly transparent, and shown as a thin sheet, which does not bend light")
         elif ("solid" in result and coverage < 1.0) or "subsurface" in result:
-            self.note("it is a body, of which nothing is transparent")
+            self.note("it is a body, and no part of a body is transparent")
         return result
 
     def masks(self, mask: Seen | None, shader: Seen) -> bool:
@@ -247,7 +248,7 @@ class Reader:
             return result
         if shader.is_linked("Tangent"):
             self.note(f"the tangent of '{shader.name}' is not brought over")
-        # It is wide across the tangent, that of the Principled BSDF along it; a negative one turns it.
+        # This lobe is wide across the tangent, and that of the Principled BSDF along it; negative anisotropy turns it.
         turn = self.number(shader, "Rotation", default=0.0) + (0.25 if stretch > 0.0 else 0.0)
         return result | stretched(1.0 - abs(stretch), result["roughness"], turn)
 
@@ -375,7 +376,7 @@ class Reader:
         return result
 
     def rough_inside(self, shader: Seen, transmission: float | None) -> Document:
-        """The roughness with the Transmission Roughness of Blender before 4.0, which its GGX alone has."""
+        """Returns the roughness with Transmission Roughness in it, which only GGX of Blender before 4.0 has."""
         more = shader.value("Transmission Roughness", default=0.0)
         if more == 0.0 or getattr(shader.node, "distribution", "") != "GGX":
             return {}
@@ -404,8 +405,8 @@ class Reader:
         elif shader.is_linked(*COLOR) and behind(shader.source(*COLOR), "TEX_IMAGE", *VERTICES) is None:
             self.note(f"what is linked to the colour of '{shader.name}' is not brought over")
             result["base_color"] = GREY
-        # Where the exporter has black for what reflects, glTF reflects white at grazing angles all the same. Of glass,
-        # Specular says nothing.
+        # Where the exporter writes black as the specular colour, glTF still reflects white at grazing angles. Specular
+        # has no effect on glass.
         level = shader.value("Specular", default=1.0)
         if level is None and behind(shader.source("Specular"), "TEX_IMAGE") is None:
             self.number(shader, "Specular", default=0.5)
@@ -423,8 +424,8 @@ class Reader:
         return result
 
     def strength(self, shader: Seen) -> Document:
-        """The light of a shader that the exporter has seen, whose strength is linked to something: 1 where that is no
-        constant, as the exporter has it. With an image, it has the light itself, and the strength of a Value node."""
+        """Returns the light of a shader that the exporter has seen and whose strength is linked: 1, as in the exporter,
+        unless the link is a constant. Of an image, the exporter has the light, and the strength of a Value node."""
         light, strength = shader.value(*EMISSION), max(self.number(shader, "Emission Strength", default=1.0), 0.0)
         if light is None:
             source = shader.source("Emission Strength")
@@ -536,12 +537,12 @@ def body(albedo: Any, radius: Any, scale: float, rough: float, ior: float, forwa
 
 
 def anisotropy(stretch: float, roughness: float, rotation: float) -> Document:
-    """glTF's factors for the lobe of the Principled BSDF, whose aspect is sqrt(1 - 0.9 stretch)."""
+    """Returns glTF's factors for the lobe of the Principled BSDF, whose aspect is sqrt(1 - 0.9 stretch)."""
     return stretched(math.sqrt(1.0 - 0.9 * min(stretch, 1.0)), roughness, rotation)
 
 
 def stretched(aspect: float, roughness: float, rotation: float) -> Document:
-    """glTF's factors with the two widths that Cycles' lobes have, r² / aspect and r² aspect."""
+    """Returns glTF's factors for the two widths of Cycles' lobes, r² / aspect and r² aspect."""
     wide, narrow = min(roughness ** 2 / aspect, 1.0), min(roughness ** 2 * aspect, 1.0)
     strength = math.sqrt((wide - narrow) / (1.0 - narrow)) if narrow < 1.0 else 0.0
     return {"roughness": math.sqrt(narrow), "anisotropy_strength": strength, "anisotropy_rotation": 2.0 * math.pi * rotation}

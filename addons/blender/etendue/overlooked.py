@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from .identity import Tree
-from .lamps import ANY_BOUNCES, is_portal
+from .lamps import DEFAULT_MAX_BOUNCES, is_portal
 from .written import Document
 
 SHOWN = 4  # names in a note
@@ -103,7 +103,7 @@ def casts_no_shadow(item: Any) -> bool:
 def has_max_bounces(item: Any) -> bool:
     """Returns whether a lamp is not seen after some bounces of light."""
     settings = getattr(item.data, "cycles", None)
-    return item.type == "LIGHT" and getattr(settings, "max_bounces", ANY_BOUNCES) < ANY_BOUNCES
+    return item.type == "LIGHT" and getattr(settings, "max_bounces", DEFAULT_MAX_BOUNCES) < DEFAULT_MAX_BOUNCES
 
 
 def has_hair(item: Any) -> bool:

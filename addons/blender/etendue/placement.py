@@ -14,7 +14,7 @@ from .overlooked import moves_blurred, said
 
 Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 KEYS = 9  # of motion while the shutter is open
-STILL = 0.01  # share of the ways to the frames before and after that things go without motion blur, for vectors
+STILL = 0.01  # share of the motion to the frames before and after that is kept without motion blur, for vectors
 
 
 def moments(scene: Any, blurred: bool) -> tuple[list[float], list[float]]:
@@ -34,7 +34,7 @@ Parts = tuple[Vector, Quaternion, Vector]  # a place, a turn and a scale
 
 
 def shortened(ways: list[Parts]) -> list[Parts]:
-    """Returns the same share of all ways from the middle, on which things are as fast as on the whole ways."""
+    """Returns the motion shortened to the share STILL around its middle, for a shutter open for as small a share."""
     place, turn, scale = ways[1]
     return [(place.lerp(there[0], STILL), turn.slerp(there[1], STILL), scale.lerp(there[2], STILL)) for there in ways]
 

@@ -39,8 +39,8 @@ def is_closed(mesh: Any) -> bool:
 
 @dataclass
 class Surface:
-    """Says of the mesh that an object is rendered as whether it bounds a volume, and which materials its faces have, in
-    the order of their slots: None for none."""
+    """Describes the mesh that an object is rendered as: whether it bounds a volume, and which materials its faces have,
+    in the order of their slots; None is for no material."""
 
     closed: bool
     parts: list[Any]
@@ -66,8 +66,8 @@ def materials_in(mesh: Any) -> set[Any]:
 
 
 def parts_of(item: Any, mesh: Any) -> list[Any]:
-    """Returns the material of each slot of the evaluated object that faces of its mesh have; beyond the last slot, it
-    is that of the last."""
+    """Returns the material of each slot of the evaluated object that faces of its mesh use; faces with a number beyond
+    the last slot use the last."""
     slots = [slot.material and slot.material.original for slot in item.material_slots]
     numbers = numpy.unique(numbers_of(mesh.polygons, "material_index", numpy.int32))
     return [slots[min(int(number), len(slots) - 1)] if slots else None for number in numbers]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from .lamps import ANY_BOUNCES
+from .lamps import DEFAULT_MAX_BOUNCES
 from .nodes import Seen, active_output, behind
 from .written import Document, Written
 
@@ -20,7 +20,7 @@ def environment(world: Any, transparent: bool, written: Written) -> Document | N
     visible = not transparent and world_is_visible(world)
     if hides_from_rays(world):
         written.note("of the world's Ray Visibility, only Camera is brought over")
-    if getattr(getattr(world, "cycles", None), "max_bounces", ANY_BOUNCES) < ANY_BOUNCES:
+    if getattr(getattr(world, "cycles", None), "max_bounces", DEFAULT_MAX_BOUNCES) < DEFAULT_MAX_BOUNCES:
         written.note("the Max Bounces of the world are not brought over")
     result: Document = {} if visible else {"visible_to_camera": False}
     if not world.use_nodes or world.node_tree is None:
@@ -108,7 +108,7 @@ def world_is_visible(world: Any) -> bool:
 
 
 def hides_from_rays(world: Any) -> bool:
-    """Returns whether some kind of rays but the camera's does not see it."""
+    """Returns whether the world is hidden from some kind of rays other than the camera's."""
     flags = getattr(world, "cycles_visibility", None)
     return not all(getattr(flags, name, True) for name in ("diffuse", "glossy", "transmission", "scatter"))
 

@@ -32,7 +32,7 @@ class Written:
     blended: set[str] = field(default_factory=set)  # whose alpha is coverage, where the exporter drops or cuts it
     alphas: dict[str, float] = field(default_factory=dict)  # multiply what the exporter has
     textures: dict[str, Texture] = field(default_factory=dict)  # base colours that the exporter lacks
-    opaque: set[str] = field(default_factory=set)  # whose alpha the exporter has from an image that has none
+    opaque: set[str] = field(default_factory=set)  # whose alpha the exporter takes from an image without alpha
     unbumped: set[str] = field(default_factory=set)  # whose normal map is a height map
     tangents: dict[str, tuple[str, str]] = field(default_factory=dict)  # UV maps of a normal map's image and tangents
     bare: set[str] = field(default_factory=set)  # whose surface the exporter has taken from a shader that is not shown

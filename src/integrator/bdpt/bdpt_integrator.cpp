@@ -72,7 +72,7 @@ std::unique_ptr<const LampImages> BdptIntegrator::lamp_images(const World& world
 
 void BdptIntegrator::trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch,
                                    PhotonList& photons, RenderCounters& counters) const {
-    if (settings_.strategy.value_or(kMerges) != kMerges) return;  // nobody would look for them
+    if (settings_.strategy.value_or(kMerges) != kMerges) return;  // no vertex would look for photons
     auto& wave = static_cast<BdptWave&>(scratch);
     const std::size_t total = camera_sample_count(job);
     for (std::size_t first = 0; first < total; first += BdptWave::kCapacity)

@@ -64,7 +64,7 @@ class BdptWave final : public IntegratorScratch {
         Scattering::TwoWayValue at_eye{};
         Scattering::TwoWayValue at_light{};
     };
-    /// A connection of plain diffuse surfaces, whose lanes are computed at once.
+    /// Holds a connection of plain diffuse surfaces, whose lanes are computed at once.
     struct WideBetween {
         const ConnectibleVertex* eye;
         const ConnectibleVertex* light;
@@ -127,7 +127,7 @@ class BdptWave final : public IntegratorScratch {
     std::vector<Vec2f> choosing_;  ///< numbers for the choice of a light
     std::vector<LightTree::Choice> choices_;
     std::vector<std::size_t> lit_;  ///< vertices that the numbers and choices are for, as places in `to_light_`
-    std::vector<std::size_t> wide_to_lights_;  ///< those of them, as places in `lit_`, whose lanes are computed at once
+    std::vector<std::size_t> wide_to_lights_;  ///< vertices whose lanes are computed at once, as places in `lit_`
     std::array<WideBetween, kBlockLanes> wide_between_{};
     std::size_t wide_between_count_ = 0;
     ToLightLanes to_light_lanes_;

@@ -1,7 +1,7 @@
 // Connections of plain diffuse surfaces, each with its weight among the strategies and its ray.
 //
-// The weights of strategy_sums.h in single precision: SubpathWave makes a DiffuseEnd only where floats hold the
-// densities. All but the connection itself is known beforehand of diffuse surfaces.
+// The weights are those of strategy_sums.h in single precision: SubpathWave makes a DiffuseEnd only where floats hold
+// the densities. Diffuse surfaces let all but the connection itself be computed beforehand.
 #pragma once
 
 #include "light/mesh_light.h"

@@ -50,15 +50,15 @@ struct GlossyLanes {
     }
 
     /// Moves what is known of those paths [0, paths) of a block that are on gloss here, side by side. `choices` are
-    /// their numbers for the choice of a lobe, x, `directions` for the direction. With `lights_only` the paths have
-    /// been moved here before, and only the directions to their lights are others now.
+    /// their numbers for the choice of a lobe, in x, `directions` those for the direction. With `lights_only`, only the
+    /// directions to their lights are moved, as all else has been moved here before.
     void take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices, const NumberPairs& directions,
               bool lights_only);
     /// Evaluates the lobes of lanes [0, count), rounded up.
     void evaluate(std::size_t count);
     /// Evaluates and samples the lobes of lanes [0, count), rounded up.
     void evaluate_and_sample(std::size_t count);
-    /// Moves values, and samples if asked to, back to the `paths` of `lanes` that are on gloss.
+    /// Moves values, and samples if `with_samples`, back to those of the first `paths` of `lanes` that are on gloss.
     void give(BlockLanes& lanes, std::size_t paths, bool with_samples) const;
 
   private:

@@ -21,16 +21,16 @@ namespace etendue {
 /// Lists lanes in the order in which they were offered, each at most once.
 class LaneList {
   public:
-    /// Numbers a lane. It is no byte: a byte may be a part of anything, and compilers would read the count anew after
-    /// every one they write.
+    /// Numbers a lane. The type is larger than a byte: bytes may alias anything, so that compilers would read the count
+    /// anew after each byte they write.
     using Lane = std::uint16_t;
 
     void clear() { count_ = 0; }
     void add(std::size_t lane) { add_if(true, lane); }
-    /// Adds `lane` if `is_one`, without a branch: which paths these are is chance, which no processor foretells.
-    void add_if(bool is_one, std::size_t lane) {
+    /// Adds `lane` if `is_listed`, without a branch: `is_listed` is a matter of chance, which no processor predicts.
+    void add_if(bool is_listed, std::size_t lane) {
         lanes_[count_] = static_cast<Lane>(lane);
-        count_ += is_one ? 1 : 0;
+        count_ += is_listed ? 1 : 0;
     }
 
     [[nodiscard]] std::size_t size() const { return count_; }

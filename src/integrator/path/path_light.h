@@ -48,7 +48,7 @@ class PathLight {
     ShadowRayQueue shadow_rays{RayKind::Shadow};
     LampsInView lamps;
     SampleLight found;         ///< what the samples have found, by slot, that is, by camera sample
-    std::vector<float> alpha;  ///< by slot
+    std::vector<float> alpha;  ///< alpha of the samples, by slot
 
   private:
     /// Counts for a profile that a direction which path `i` sampled has led to light.

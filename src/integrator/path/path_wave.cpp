@@ -60,7 +60,8 @@ void PathWave::look_again(const World& world, const TileJob& job, RenderCounters
     const RayColumns rays = paths_.rays(active_);
     for (std::size_t i = 0; i < active_; ++i)
         if (path_history::is_seen(paths_.history[i]))
-            paths_.hits[i] = shown_hit(world, job, rays[i], paths_.hits[i], paths_.slot[i], light_.found, counters);
+            paths_.hits[i] =
+                hit_seen_by_camera(world, job, rays[i], paths_.hits[i], paths_.slot[i], light_.found, counters);
 }
 
 template <typename TraceShadowRays>

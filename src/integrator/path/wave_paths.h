@@ -80,7 +80,7 @@ struct WavePaths : PathColumns {
 
     /// Tells the profile, if there is one, of the end of path `i`.
     void end_path(const PathContext& context, std::size_t i, PathEnding ending) const {
-        end_eye_path(context.job, samples[slot[i]], ending, context.rays);
+        count_eye_path_end(context.job, samples[slot[i]], ending, context.rays);
     }
     /// Moves all that `survivors` keep to where they go on.
     void move(BlockSurvivors survivors, const SceneTraits& traits);

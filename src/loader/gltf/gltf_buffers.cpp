@@ -22,7 +22,7 @@ class BufferLoader {
                  std::vector<std::filesystem::path>& inputs)
         : bin_(bin), directory_(directory), inputs_(inputs) {}
 
-    /// Loads as much of a buffer as is there, of which views take the first `viewed` bytes. Throws IoError.
+    /// Loads as much of a buffer as there is. Views take its first `viewed` bytes. Throws IoError.
     std::vector<unsigned char> load(const nlohmann::json& buffer, bool is_first, std::uintmax_t viewed) {
         // Some exporters round the length up.
         constexpr std::uintmax_t kMostTooMany = 3;
@@ -83,7 +83,7 @@ bool same_but_for_case(std::string_view text, std::string_view lower) {
     });
 }
 
-/// Returns how many bytes of each buffer views take, those of meshopt's extension among them.
+/// Returns how many bytes of each buffer are taken by views, the views of meshopt's extension included.
 std::vector<std::uintmax_t> viewed_bytes(const nlohmann::json& document) {
     std::vector<std::uintmax_t> ends(document["buffers"].size(), 0);
     const auto add = [&](const nlohmann::json& view) {

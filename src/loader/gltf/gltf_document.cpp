@@ -165,13 +165,13 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
         if (json.contains("bufferView")) image.buffer_view = json["bufferView"].get<int>();
         if (image.buffer_view && !image.uri.empty())
             problems.warning(result.at(child_pointer("/images", i)),
-                             "has a URI, too, beside its buffer view, which is taken");
+                             "has both a URI and a buffer view; the buffer view is used");
         result.images.push_back(std::move(image));
     }
     document.erase("images");
 }
 
-/// Lists the files of images, those that nothing shows, too: no output may replace them.
+/// Lists the files of all images, even of images that nothing shows: no output may replace them.
 void list_images(GltfDocument& result) {
     std::set<std::filesystem::path> listed;
     for (const GltfImage& image : result.images) {
@@ -179,13 +179,13 @@ void list_images(GltfDocument& result) {
         try {
             listed.insert(resolve_uri(result.directory, image.uri));
         } catch (const IoError&) {
-            // Whoever shows it says what is wrong.
+            // The code that reads the image reports what is wrong.
         }
     }
     result.images_of_file.assign(listed.begin(), listed.end());
 }
 
-/// Leaves out bounds of accessors that are no lists of numbers, as of exporters that write NaN as null.
+/// Removes bounds of accessors that are no lists of numbers: some exporters write NaN as null.
 void drop_bad_bounds(Json& document) {
     const auto accessors = document.find("accessors");
     if (accessors == document.end() || !accessors->is_array()) return;

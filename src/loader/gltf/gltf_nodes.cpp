@@ -118,7 +118,7 @@ class Placer {
         if (!accessors_.allocate(1, kBytesOfPlace + node.name.size() + name_bytes(node), where)) return;
         if (node.camera >= 0) place_camera(node, *rigid, motion);
         if (node.camera >= 0 && placed.to_world.determinant() < 0.0)
-            problems_.note(where, "mirrors its camera; cameras have no scale in glTF: the image is not mirrored");
+            problems_.note(where, "mirrors its camera, but the image is not mirrored: cameras have no scale in glTF");
         if (shines) {
             lights_.place(node, *rigid, where);
             if (!motion.empty()) ++moving_lights_;

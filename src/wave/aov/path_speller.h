@@ -26,8 +26,8 @@ enum class LightKind : std::uint8_t {
     Indirect,  ///< all other
 };
 
-/// Returns how light that a path from the eye meets comes to the eye, which sees it if `is_seen`; `is_direct` if all
-/// vertices but the last were deltas.
+/// Returns the kind of the light that a path from the eye has met. `is_seen` is true if the eye sees the light itself,
+/// `is_direct` if all vertices but the last were deltas.
 [[nodiscard]] constexpr LightKind kind_of_met_light(bool is_seen, bool is_direct) {
     if (is_seen) return LightKind::Seen;
     return is_direct ? LightKind::Direct : LightKind::Indirect;

@@ -29,7 +29,7 @@ struct VertexEvent {
 [[nodiscard]] VertexEvent surface_event(const Scattering& scattering, const Vec3f& wi, bool is_delta,
                                         TransportMode mode, std::uint16_t label);
 
-/// Returns what scattering at a diffuse surface whose material has `label` is taken for: diffuse reflection.
+/// Returns the event of scattering at a diffuse surface whose material has `label`: diffuse reflection.
 [[nodiscard]] inline VertexEvent diffuse_event(std::uint16_t label) {
     return {.event = ScatterEvent::ReflectDiffuse, .other = ScatterEvent::ReflectGlossy, .label = label};
 }

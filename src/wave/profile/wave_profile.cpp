@@ -37,7 +37,7 @@ std::vector<std::uint64_t> PathTally::lengths() const {
 
 WaveProfile::WaveProfile(std::size_t recorded_rays) : recorders_(kRayKinds, RayRecorder(recorded_rays)) {}
 
-void WaveProfile::end_eye_path(PathEnding ending, const LongPath& path) {
+void WaveProfile::count_eye_path_end(PathEnding ending, const LongPath& path) {
     eye_paths_.count(ending, path.rays);
     if (longest_.size() < kLongPaths || is_before(path, longest_.back())) keep(longest_, path);
 }

@@ -85,7 +85,7 @@ class WaveProfile {
     /// `count` rays of a kind met something.
     void count_hits(RayKind kind, std::uint64_t count) { hits_[kind] += count; }
     /// Counts an eye path that came to its end.
-    void end_eye_path(PathEnding ending, const LongPath& path);
+    void count_eye_path_end(PathEnding ending, const LongPath& path);
     /// Counts a light subpath of `rays` rays that came to its end.
     void end_light_path(PathEnding ending, int rays) { light_paths_.count(ending, rays); }
     [[nodiscard]] SampleUse& use() { return use_; }

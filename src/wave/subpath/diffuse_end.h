@@ -1,5 +1,5 @@
-// What connections need of a vertex on a plain diffuse surface: little enough for one cache line, and the same whatever
-// the vertex is connected to, so that many connections are computed at once.
+// The data that connections need of a vertex on a plain diffuse surface: little enough for one cache line, and the same
+// whatever the vertex is connected to, so that many connections are computed at once.
 #pragma once
 
 #include "core/columns.h"
@@ -36,7 +36,7 @@ struct BasicDiffuseEnd {
     [[nodiscard]] T cosine(const Vec& w) const { return dot(w, geometric_normal); }
     /// Throughput times f |cos| towards `w`, of a subpath from the eye.
     [[nodiscard]] BasicRgb<T> radiance(const Vec& w) const { return weight * (max(T(0.0f), dot(w, normal)) * kInvPi); }
-    /// Density, 1/sr, with which a subpath from the eye goes on along `w` (diffuse_pdf_for_eye).
+    /// Returns the density, 1/sr, with which a subpath from the eye goes on along `w` (diffuse_pdf_for_eye).
     [[nodiscard]] T radiance_pdf(const Vec& w) const {
         const T direct = dot(w, normal);
         const T mirrored = direct - T(2.0f) * cosine(w) * dot(normal, geometric_normal);
@@ -44,7 +44,7 @@ struct BasicDiffuseEnd {
     }
     /// Throughput times f |cos| towards `w`, of a subpath from a light.
     [[nodiscard]] BasicRgb<T> importance(const Vec& w) const { return weight * importance_pdf(w); }
-    /// Density, 1/sr, with which a subpath from a light goes on along `w` (diffuse_pdf_for_light).
+    /// Returns the density, 1/sr, with which a subpath from a light goes on along `w` (diffuse_pdf_for_light).
     [[nodiscard]] T importance_pdf(const Vec& w) const { return cosine(w) * kInvPi; }
 };
 

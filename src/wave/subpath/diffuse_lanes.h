@@ -1,4 +1,4 @@
-// What plain diffuse surfaces make of a block of subpaths.
+// Scattering of a block of subpaths at plain diffuse surfaces.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
@@ -21,7 +21,7 @@ struct DiffuseLanes : SurfaceLanes {
     Vec3Columns facing_normal;
     Column reverse_pdf;  ///< density of turning back, 1/sr, wherever the walk comes from
 
-    // What DiffuseEnd has besides.
+    // DiffuseEnd has these members, too.
     Vec3Columns end_origin;
     RgbColumns end_weight;
     Column end_fewer;  ///< set by the caller

@@ -1,4 +1,4 @@
-// What the camera sees of light subpaths, and where these begin, connected to it: lamps in view, found from their side.
+// Views of the camera on light subpaths, and connections from where these begin: lamps in view, found from their side.
 #pragma once
 
 #include "transport/bodies.h"
@@ -16,7 +16,7 @@
 
 namespace etendue {
 
-/// Says where in the image a point is seen besides.
+/// Says how the camera sees a point, and where in the image.
 struct CameraView : LensView {
     Vec2f pixel{0.0f, 0.0f};  ///< place in the full image, pixels
     float depth = 0.0f;       ///< metres along the viewing direction; of deep images only

@@ -23,7 +23,7 @@ struct PathVertex {
 
     Vec3f position{0.0f};                 ///< metres
     Vec3f wo{0.0f};                       ///< unit, to the vertex before
-    std::optional<Scattering> surface{};  ///< none in a medium, nor yet where `diffuse` is given
+    std::optional<Scattering> surface{};  ///< none in a medium, and not yet where `diffuse` is given
     /// Holds the material of a vertex with a DiffuseEnd, from which SubpathVertices::whole makes its surface.
     const Bsdf* diffuse = nullptr;
     Vec3f geometric_normal{0.0f};                ///< unit, on the surface's front

@@ -1,4 +1,4 @@
-// Where subpaths have got to, and what they leave behind.
+// The states of subpaths under way, and the vertices that they leave behind.
 #pragma once
 
 #include "bsdf/bsdf.h"
@@ -33,7 +33,7 @@ struct SideInteriors {
 /// to, and what connections of plain diffuse vertices need.
 class SubpathVertices {
   public:
-    /// `makes_diffuse_ends`: whether `diffuse_end` will be asked.
+    /// Makes a store without vertices. `makes_diffuse_ends` says whether `diffuse_end` will be called.
     SubpathVertices(SubpathEnd end, bool makes_diffuse_ends) : end_(end), makes_diffuse_ends_(makes_diffuse_ends) {}
 
     /// Forgets all vertices; those to come have the words of `aovs`, which may be null.
@@ -75,7 +75,7 @@ class SubpathVertices {
     void place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex);
     /// Returns the vertex at a place in `all`.
     [[nodiscard]] PathVertex& operator[](std::uint32_t place) { return vertices_[place]; }
-    /// Returns where the diffuse end of the vertex at a place in `all` belongs.
+    /// Returns the diffuse end, to be filled in, of the vertex at a place in `all`.
     [[nodiscard]] DiffuseEnd& diffuse_end_at(std::uint32_t place) { return diffuse_ends_[place]; }
     /// Takes the words of a subpath past a vertex.
     void follow_words(SubpathState& state, const VertexEvent& event) { state.words = scatter(state.words, event); }

@@ -54,7 +54,8 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         if (end_ == SubpathEnd::AtEye && (job.world().traits().hides_surfaces || job.world().traits().clips_far))
             for (std::size_t i = 0; i < states_.size(); ++i)
                 if (states_[i].index == kDirectlySeen)
-                    hits_[i] = shown_hit(job.world(), job.job, rays_[i], hits_[i], states_[i].slot, light, counters);
+                    hits_[i] =
+                        hit_seen_by_camera(job.world(), job.job, rays_[i], hits_[i], states_[i].slot, light, counters);
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
@@ -314,7 +315,7 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
 
 void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const {
     if (end_ == SubpathEnd::AtEye)
-        end_eye_path(job.job, job.samples[states_[i].slot], ending, bounce_);
+        count_eye_path_end(job.job, job.samples[states_[i].slot], ending, bounce_);
     else if (job.job.profile != nullptr)
         job.job.profile->end_light_path(ending, bounce_);
 }

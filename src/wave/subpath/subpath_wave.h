@@ -54,7 +54,7 @@ struct ShadedSubpath {
 
 class SubpathWave {
   public:
-    /// `makes_diffuse_ends`: whether `SubpathVertices::diffuse_end` will be asked.
+    /// Makes an empty wave. `makes_diffuse_ends` says whether `SubpathVertices::diffuse_end` will be called.
     SubpathWave(SubpathEnd end, bool makes_diffuse_ends)
         : end_(end), makes_diffuse_ends_(makes_diffuse_ends), vertices_(end, makes_diffuse_ends) {}
 
@@ -135,7 +135,7 @@ class SubpathWave {
     std::array<std::uint8_t, kBlockLanes> on_surface_{};
     std::size_t surfaces_ = 0;
     DiffuseLanes lanes_;
-    std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, whose DiffuseEnd that is; kNoVertex if there is none
+    std::array<std::uint32_t, kBlockLanes> ends_{};  ///< by lane, the vertex of its DiffuseEnd; kNoVertex if none
     std::array<bool, kBlockLanes> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_,

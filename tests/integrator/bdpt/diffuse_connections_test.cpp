@@ -29,7 +29,7 @@ bool is_near(const Rgb& value, const Rgb& expected) {
     return is_near(value.r, expected.r) && is_near(value.g, expected.g) && is_near(value.b, expected.b);
 }
 
-/// A vertex on a diffuse surface, with what all others go through, and what lanes have of it.
+/// Holds a vertex on a diffuse surface, in the form that single connections use and in that of lanes.
 struct BothEnds {
     PathVertex vertex;
     DiffuseEnd end;

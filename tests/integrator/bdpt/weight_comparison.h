@@ -12,10 +12,10 @@ namespace etendue::test {
 
 /// Makes the paths of the samples of `jobs`, one after the other and with other seeds until there are `paths`, and
 /// expects of all of them, within 1e-4, that the recursion's weights of all strategies (recursive_weights.h) are those
-/// of the definition and sum to 1, and that the weight by the strategy that made the path is among them. Excused, up to
-/// 1e-2 and one path in 200, are those whose positions tell directions less exactly than the walk knew them: with an
-/// edge below `short_edge` metres, or one that grazes a surface; and by any amount with an edge below a hundredth of
-/// that. Subpaths merge where `merge` says. Returns how many strategies the paths with the most had.
+/// of the definition and sum to 1, and that the weight by the strategy that made the path is among them. One
+/// path in 200 may be off by up to 1e-2 if its positions tell directions less exactly than the walk knew them: if an
+/// edge is below `short_edge` metres or grazes a surface. Paths with an edge below a hundredth of `short_edge` may be
+/// off by any amount. Subpaths merge where `merge` says. Returns how many strategies the paths with the most had.
 std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuristic heuristic, MergeAt merge,
                                  std::span<const TileJob> jobs, std::size_t paths, float short_edge);
 

@@ -9,15 +9,15 @@ namespace {
 
 TEST(WaveProfile, PathsEndWithTheirLengths) {
     WaveProfile profile(0);
-    profile.end_eye_path(PathEnding::Roulette, {.x = 1, .y = 2, .sample = 3, .rays = 4});
-    profile.end_eye_path(PathEnding::Roulette, {.rays = 1});
-    profile.end_eye_path(PathEnding::Escaped, {.rays = 4});
+    profile.count_eye_path_end(PathEnding::Roulette, {.x = 1, .y = 2, .sample = 3, .rays = 4});
+    profile.count_eye_path_end(PathEnding::Roulette, {.rays = 1});
+    profile.count_eye_path_end(PathEnding::Escaped, {.rays = 4});
     EXPECT_EQ(profile.eye_paths().paths(PathEnding::Roulette), 2u);
     EXPECT_EQ(profile.eye_paths().paths(PathEnding::Escaped), 1u);
     EXPECT_EQ(profile.eye_paths().lengths(), (std::vector<std::uint64_t>{0, 1, 0, 0, 2}));
     ASSERT_EQ(profile.longest().size(), 3u);
     EXPECT_EQ(profile.longest()[2].rays, 1);
-    profile.end_eye_path(PathEnding::Unlit, {.rays = 1000000});
+    profile.count_eye_path_end(PathEnding::Unlit, {.rays = 1000000});
     EXPECT_EQ(profile.eye_paths().lengths().size(), static_cast<std::size_t>(PathTally::kMostRays) + 1);
     EXPECT_EQ(profile.longest().front().rays, 1000000);
 }
@@ -27,8 +27,8 @@ TEST(WaveProfile, TheLongestPathsDoNotDependOnWhoTracedThem) {
     WaveProfile parts[2] = {WaveProfile(0), WaveProfile(0)};
     for (int i = 0; i < 100; ++i) {
         const LongPath path{.x = 100 - i, .y = i % 7, .sample = 0, .rays = (i * 37) % 10};
-        whole.end_eye_path(PathEnding::TooLong, path);
-        parts[i % 3 == 0 ? 1 : 0].end_eye_path(PathEnding::TooLong, path);
+        whole.count_eye_path_end(PathEnding::TooLong, path);
+        parts[i % 3 == 0 ? 1 : 0].count_eye_path_end(PathEnding::TooLong, path);
     }
     parts[0].add(parts[1]);
     ASSERT_EQ(parts[0].longest().size(), WaveProfile::kLongPaths);
