@@ -103,7 +103,7 @@ TEST(OffBudget, AreMeansMoreThanATenthFromTheTimeAskedFor) {
     report.variants = {{.name = "path"}, {.name = "bdpt"}};
     report.variants[0].cpu_seconds.values = {1.8, 2.0};
     report.variants[1].cpu_seconds.values = {1.7, 1.8};
-    EXPECT_NE(off_budget(report).find("in the mean: 'bdpt' 1.75 s;"), std::string::npos) << off_budget(report);
+    EXPECT_NE(off_budget(report).find("CPU time asked for: 'bdpt' 1.75 s;"), std::string::npos) << off_budget(report);
     report.variants[1].cpu_seconds.values = {2.1, 2.1};
     EXPECT_EQ(off_budget(report), "");
     report.seconds.reset();

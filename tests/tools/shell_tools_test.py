@@ -108,6 +108,11 @@ class Check(ShellTools):
         for name in sources:
             self.assertIn(name, looked_at)
 
+        status, said = self.run_in_checkout("tools/dev/check", "tidy", "--base", "HEAD", "--seconds", "0")
+        self.assertEqual(status, 0, said)
+        self.assertIn("2 of them are left unchecked after 0 s", said)
+        self.assertEqual((self.root / "looked-at").read_text(), looked_at)
+
 
 class Packages(ShellTools):
     def test_those_that_are_held_are_not_missing(self):
