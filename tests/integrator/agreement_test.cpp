@@ -10,7 +10,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <ostream>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -21,46 +21,36 @@ namespace etendue::test {
 
 namespace {
 
-/// A room and an integrator to compare with the first that finds all of its light.
-struct AgreementPair {
-    const AgreementCase* agreement;
-    std::string integrator;
-};
-
-void PrintTo(const AgreementPair& pair, std::ostream* out) {
-    *out << pair.integrator << " " << pair.agreement->name;
+/// Returns how many comparisons with the first integrator of its room there are in all rooms.
+std::size_t room_comparisons() {
+    std::size_t count = 0;
+    for (const AgreementCase& room : agreement_cases()) count += room.integrators.size() - 1;
+    return count;
 }
 
-const std::vector<AgreementPair>& pairs() {
-    static const std::vector<AgreementPair> all = [] {
-        std::vector<AgreementPair> result;
-        for (const AgreementCase& agreement : agreement_cases())
-            for (std::size_t i = 1; i < agreement.integrators.size(); ++i)
-                result.push_back({&agreement, agreement.integrators[i]});
-        return result;
-    }();
-    return all;
-}
-
-class Agreement : public testing::TestWithParam<AgreementPair> {};
+/// A room in which each integrator is compared with the first.
+class Agreement : public testing::TestWithParam<std::string> {};
 
 TEST_P(Agreement, MakesTheSameImage) {
-    const auto& [agreement, integrator] = GetParam();
-    const World world = agreement_world(*agreement);
+    const AgreementCase& room = agreement_case(GetParam());
+    const World world = agreement_world(room);
     const ThreadPool threads;
-    const ImageEstimate first =
-        estimate(world, agreement->integrators.front(), *agreement, {.first_seed = 100}, threads);
-    const ImageEstimate other = estimate(world, integrator, *agreement, {.first_seed = 200}, threads);
-    const BlockAgreement result = test_agreement(
-        first, other, {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, pairs().size())});
-    if (result.agree()) return;
-    const Disagreement pair{{agreement->integrators.front(), &first.mean}, {integrator, &other.mean}};
-    const std::filesystem::path images = write_failure_images(test_output_directory(), *agreement, world, {&pair, 1});
-    ADD_FAILURE() << result.str() << "; the images, their difference and the strategies of bdpt are in "
-                  << images.string();
+    const std::string& reference = room.integrators.front();
+    const ImageEstimate first = estimate(world, reference, room, {.first_seed = 100}, threads);
+    for (const std::string& integrator : std::span(room.integrators).subspan(1)) {
+        const ImageEstimate other = estimate(world, integrator, room, {.first_seed = 200}, threads);
+        const BlockAgreement result = test_agreement(
+            first, other,
+            {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, room_comparisons())});
+        if (result.agree()) continue;
+        const Disagreement pair{{reference, &first.mean}, {integrator, &other.mean}};
+        const std::filesystem::path images = write_failure_images(test_output_directory(), room, world, {&pair, 1});
+        ADD_FAILURE() << integrator << ": " << result.str()
+                      << "; the images, their difference and the strategies of bdpt are in " << images.string();
+    }
 }
 
-/// Who renders a crop, of one of `pairs`' rooms, and the pixel filter: splats reach beyond their pixels but in a box.
+/// An integrator that renders a crop of a room, and the pixel filter: splats reach beyond their pixels but in a box.
 class CropAgreement : public testing::TestWithParam<std::tuple<const char*, FilterShape>> {};
 
 // All splats of the whole image reach the crop in the one, in the other only what is meant for it: the two differ in
@@ -87,7 +77,7 @@ TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
     }
 }
 
-/// Who renders the room with Russian roulette and without.
+/// An integrator that renders a room with Russian roulette and without.
 class RouletteAgreement : public testing::TestWithParam<const char*> {};
 
 // It is outside of the densities that weigh strategies, on both subpaths: it may change the noise only.
@@ -132,8 +122,12 @@ INSTANTIATE_TEST_SUITE_P(Splats, CropAgreement,
 INSTANTIATE_TEST_SUITE_P(BothSubpaths, RouletteAgreement, testing::Values("light", "bdpt"),
                          [](const auto& param) { return std::string(param.param); });
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(pairs()),
-                         [](const auto& pair) { return pair.param.integrator + "_" + pair.param.agreement->name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn([] {
+                             std::vector<std::string> names;
+                             for (const AgreementCase& room : agreement_cases()) names.push_back(room.name);
+                             return names;
+                         }()),
+                         [](const auto& room) { return room.param; });
 
 }  // namespace
 
