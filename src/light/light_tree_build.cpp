@@ -34,6 +34,12 @@ LightBounds united(const LightBounds& all, const LightBounds& one, bool is_first
     return is_first ? one : all.united(one);
 }
 
+std::vector<std::optional<LightBounds>> bounds_of_each(std::span<const Light> lights) {
+    std::vector<std::optional<LightBounds>> bounds;
+    for (const Light& light : lights) bounds.push_back(light_bounds(light));
+    return bounds;
+}
+
 double intensity(const LightBounds& bounds) {
     return bounds.power / bounds.cone.measure();
 }
@@ -60,7 +66,12 @@ struct LightTree::Leaf {
     std::uint32_t light = 0;
 };
 
-LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places_(lights.size()) {
+LightTree::LightTree(std::span<const Light> lights, float scene_radius)
+    : LightTree(lights, bounds_of_each(lights), scene_radius) {}
+
+LightTree::LightTree(std::span<const Light> lights, std::span<const std::optional<LightBounds>> bounds_of_light,
+                     float scene_radius)
+    : places_(lights.size()) {
     assert(lights.size() < kLeaf);
     const bool none_shines = std::all_of(
         lights.begin(), lights.end(), [&](const Light& light) { return !(light_power(light, scene_radius) > 0.0f); });
@@ -72,7 +83,7 @@ LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places
         if (none_shines) powers[i] = 1.0f;
         if (!(powers[i] > 0.0f)) continue;
         const auto index = static_cast<std::uint32_t>(i);
-        if (std::optional<LightBounds> bounds = light_bounds(lights[i])) {
+        if (std::optional<LightBounds> bounds = bounds_of_light[i]) {
             bounds->power = static_cast<double>(powers[i]);
             places_[i].index = static_cast<std::uint32_t>(near_.size());
             near_.push_back(index);

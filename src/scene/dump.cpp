@@ -277,7 +277,7 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
         }
         if (light.angle > 0.0f) fmt::format_to(out, " angle {:g}", light.angle);
         if (light.profile) fmt::format_to(out, " times IES profile {}", light.profile.index);
-        fmt::format_to(out, ", {}\n", text(light.to_world, scene.origin));
+        fmt::format_to(out, ", {}{}\n", text(light.to_world, scene.origin), text_of_motion(light.motion.size()));
     }
     const EnvironmentDesc& e = scene.environment;
     if (!e.enabled) return;

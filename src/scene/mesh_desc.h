@@ -83,7 +83,7 @@ struct NodeDesc {
     std::uint32_t parent = kNone;  ///< index into SceneDesc::nodes, smaller than its own; kNone at the top
     std::uint32_t number = 0;      ///< number of the node in the file
     Mat4f to_world{};              ///< in the middle of the shutter, from the scene's origin
-    bool moves = false;            ///< while the shutter is open
+    TransformMotion motion{};      ///< while the shutter is open
 
     [[nodiscard]] Vec3f position() const { return {to_world[3][0], to_world[3][1], to_world[3][2]}; }
 };

@@ -119,7 +119,9 @@ void validate_extent(const SceneDesc& scene, ProblemList& problems) {
         extent.extend(static_cast<double>(camera.clip.start), "the camera's clipping", camera.location);
     }
     for (const LightDesc& light : scene.lights)
-        extent.extend(largest_coordinate(place_of(light.to_world)), "the light", light.location);
+        for_each_transform(light, [&](const Mat4f& m) {
+            extent.extend(largest_coordinate(place_of(m)), "the light", light.location);
+        });
 
     for (const InstanceDesc& instance : scene.instances) {
         double growth = 0.0;

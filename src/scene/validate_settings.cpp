@@ -151,6 +151,8 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
         check_range(static_cast<double>(light.intensity), 0.0, kUnbounded, "light intensity", where, problems);
         if (!is_invertible(light.to_world)) {
             problems.error(where, "the light's transform is singular, not affine or not finite");
+        } else {
+            check_motion(light.motion, where, problems);
         }
         if (light.profile) {
             check_handle(light.profile, scene.ies_profiles, "IES profile", where, problems);

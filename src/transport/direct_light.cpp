@@ -24,7 +24,7 @@ Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) 
     const Rgb emitted = world.materials().emission(vertex.surface, vertex.wo);
     if (is_black(emitted)) return {};
     const float light_pdf = world.lights().pdf_solid_angle(path.last.receiver, vertex.surface, -vertex.wo,
-                                                           path.last.passed + vertex.distance);
+                                                           path.last.passed + vertex.distance, path.ray.time);
     return emitted * met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
 }
 
@@ -55,7 +55,7 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
         const LightNumbers u_light{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
         LightTree::Choice choice = world.lights().choose(receiver, u_light.light);
         share_estimate(choice, samples);
-        const ChosenLight chosen = world.lights().sample(choice, vertex.position, u_light);
+        const ChosenLight chosen = world.lights().sample(choice, vertex.position, u_light, path.ray.time);
         if (is_black(chosen.sample.radiance)) continue;
         const BsdfValue value = vertex.evaluate(chosen.sample.wi);
         light += light_contribution(world, vertex, path.throughput * vertex.wavelength.weight, chosen.sample,

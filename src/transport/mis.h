@@ -145,9 +145,9 @@ struct SubpathProgress {
                                         : static_cast<double>(length_squared(position - sample.position));
     SubpathDensities arrived = departing.arrive(mis.raised, squared_distance, cos_arriving);
     // A light that is sampled for this vertex is chosen in another way than this one was, and so are its triangles.
-    auto for_vertex =
-        static_cast<double>(mis.world.lights().probability(position, emission.light) *
-                            mis.world.lights().gain(emission.light, sample.triangle, sample.position, position));
+    auto for_vertex = static_cast<double>(
+        mis.world.lights().probability(position, emission.light) *
+        mis.world.lights().gain(emission.light, sample.triangle, sample.position, position, emission.ray.time));
     auto for_emission = static_cast<double>(emission.probability);
     if (emission.light == mis.world.environment().light()) {
         for_vertex *= static_cast<double>(mis.world.environment().pdf_solid_angle(emission.light, -sample.direction));

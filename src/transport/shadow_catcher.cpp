@@ -83,7 +83,7 @@ CaughtShadow caught_shadow(const World& world, const SurfacePoint& point, const 
         const SampleNumbers own{numbers.sequence, round_key(numbers.key, kCatcherSamples, round)};
         const auto draw = [&](BounceDimension which) { return own.pair(bounce_dimension(1, which)); };
         const LightNumbers u{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
-        const ChosenLight chosen = world.lights().sample(receiver, u);
+        const ChosenLight chosen = world.lights().sample(receiver, u, arriving.time);
         if (chosen.light == environment) continue;
         if (const float density = chosen.density(); density > 0.0f)
             add(chosen.sample, 1.0f / density, shadow_alpha_key(alpha_key, 2 * round + 1));

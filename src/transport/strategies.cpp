@@ -28,7 +28,7 @@ void light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ve
     const SurfacePoint& point = vertex.surface;
     if (const Rgb emitted = point.material->emits ? world.materials().emission(point, vertex.wo) : Rgb();
         !is_black(emitted))
-        add({throughput * emitted, sums_of_met_lamp(sample.mis, eye, point, vertex.wo, arrived)});
+        add({throughput * emitted, sums_of_met_lamp(sample.mis, eye, point, vertex.wo, sample.eye.ray.time, arrived)});
     // An unlit surface lights nothing.
     if (vertex.kind == Vertex::Kind::Unlit && eye.only_deltas)
         add({throughput * world.materials().unlit_color(point), {}});
@@ -40,7 +40,7 @@ StrategyLight light_sampled(const SubpathSample& sample, const SubpathVertex& ey
     const auto draw = [&](SubpathDimension which) { return sample.pair(SubpathEnd::AtEye, eye.index, which); };
     const LightNumbers u{draw(SubpathDimension::LightChoice), draw(SubpathDimension::LightTriangle),
                          draw(SubpathDimension::LightDirection)};
-    const ChosenLight chosen = world.lights().sample(eye.position, u);
+    const ChosenLight chosen = world.lights().sample(eye.position, u, sample.eye.ray.time);
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return {};
     const auto scattered = eye.evaluate_both_ways(light.wi, TransportMode::Radiance);

@@ -53,34 +53,38 @@ struct LightPointPdfs {
 /// Returns `sums_at_light` for a lamp that an eye subpath has met: `emitted` goes back along its ray to `from`.
 [[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, const EmittedRay& emitted,
                                                   const SubpathDensities& arrived) {
-    const float pdf_area = mis.world.emitters().pdf_area(emitted.light, emitted.point);
-    const float gain = mis.world.lights().gain(emitted.light, emitted.triangle, emitted.point, from);
+    const float pdf_area = mis.world.emitters().pdf_area(emitted.light, emitted.point, emitted.time);
+    const float gain = mis.world.lights().gain(emitted.light, emitted.triangle, emitted.point, from, emitted.time);
     return sums_at_light(mis, from, emitted.light, {.sampled = pdf_area * gain, .emitted = pdf_area},
                          mis.world.emitters().pdf(emitted, mis.aims), arrived);
 }
 
-/// Returns the sums for a lamp that a camera ray has met at `on_light`, which the strategy (1, 1) finds, too.
+/// Returns the sums for a lamp that a camera ray has met at `on_light` and `time`, which the strategy (1, 1) finds,
+/// too.
 [[nodiscard]] inline StrategySums sums_at_seen_emitter(const MisContext& mis, std::uint32_t light,
-                                                       const Vec3f& on_light, const SubpathDensities& arrived) {
-    return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitters().pdf_area(light, on_light) *
+                                                       const Vec3f& on_light, float time,
+                                                       const SubpathDensities& arrived) {
+    return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitters().pdf_area(light, on_light, time) *
                                                              mis.world.emitters().probability(light))) *
                               arrived.a};
 }
 
-/// Returns the sums for the emission along `wo` of a lamp that `eye` has met at `point`, with the densities `arrived`.
+/// Returns the sums for the emission along `wo` of a lamp that `eye` has met at `point` and `time`, with the densities
+/// `arrived`.
 [[nodiscard]] inline StrategySums sums_of_met_lamp(const MisContext& mis, const SubpathProgress& eye,
-                                                   const SurfacePoint& point, const Vec3f& wo,
+                                                   const SurfacePoint& point, const Vec3f& wo, float time,
                                                    const SubpathDensities& arrived) {
     const std::uint32_t light = mis.world.lights().at(point);
     if (light == kNone) return {};
     if (eye.index == kDirectlySeen)
-        return eye.is_direct ? sums_at_seen_emitter(mis, light, point.position, arrived) : StrategySums{};
+        return eye.is_direct ? sums_at_seen_emitter(mis, light, point.position, time, arrived) : StrategySums{};
     return sums_at_emitter(mis, eye.from,
                            {.light = light,
                             .triangle = point.triangle,
                             .point = point.position,
                             .direction = wo,
-                            .cos_light = dot(wo, point.geometric_normal)},
+                            .cos_light = dot(wo, point.geometric_normal),
+                            .time = time},
                            arrived);
 }
 
@@ -109,15 +113,17 @@ template <typename AnyVertex>
                              .triangle = light.triangle,
                              .point = is_afar ? vertex.position : vertex.position + light.wi * light.distance,
                              .direction = -light.wi,
-                             .cos_light = light.cos_light};
+                             .cos_light = light.cos_light,
+                             .time = chosen.time};
     const float arriving = world.emitters().pdf(emitted, mis.aims) * vertex.cosine(light.wi);
     const double from_light = static_cast<double>(is_afar ? arriving : arriving / (light.distance * light.distance));
     // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so its
     // triangle, and the direction of an environment: its densities jump from cell to cell, and both must be of the one
     // that other strategies find the direction in.
     auto for_emission = static_cast<double>(world.emitters().probability(chosen.light));
-    auto for_vertex = static_cast<double>(
-        chosen.expected_samples * world.lights().gain(chosen.light, light.triangle, emitted.point, vertex.position));
+    auto for_vertex =
+        static_cast<double>(chosen.expected_samples * world.lights().gain(chosen.light, light.triangle, emitted.point,
+                                                                          vertex.position, chosen.time));
     float pdf_solid_angle = light.pdf_solid_angle;
     if (chosen.light == world.environment().light()) {
         for_emission *= static_cast<double>(world.environment().emission_pdf_solid_angle(chosen.light, light.wi));

@@ -21,8 +21,9 @@ Rgb branch_direct_light(const World& world, const DeltaBranch& branch, const Ver
     Rgb found;
     if (world.traits().has_sampled_lights) {
         const ChosenLight chosen = world.lights().sample(
-            vertex.position, {numbers.pair(kBranchLightChoice), numbers.pair(kBranchLightTriangle),
-                              numbers.pair(kBranchLightDirection)});
+            vertex.position,
+            {numbers.pair(kBranchLightChoice), numbers.pair(kBranchLightTriangle), numbers.pair(kBranchLightDirection)},
+            branch.path.ray.time);
         const LightSample& light = chosen.sample;
         const bool is_environment = chosen.light == world.environment().light();
         if (!is_black(light.radiance))

@@ -268,7 +268,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
 void find_planes_of_lamps(WorldData& data) {
     for (std::size_t light = 0; light < data.lights.size(); ++light) {
         const std::optional<Vec3f> lamp = light_point(data.lights[light]);
-        if (!lamp) continue;
+        if (!lamp || data.motion_of(static_cast<std::uint32_t>(light)) != nullptr) continue;
         std::vector<Vec3f> planes = planes_through(data, *lamp);
         if (planes.empty()) continue;
         data.planes_of_light.resize(data.lights.size());

@@ -1,10 +1,13 @@
 #include "core/position_error.h"
 #include "world/compile_parts.h"
 #include "world/contacts.h"
+#include "world/light_pose.h"
+#include "world/motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,10 +26,11 @@ std::vector<std::shared_ptr<const IesProfile>> compile_profiles(const SceneDesc&
 }
 
 /// `scale` turns the units of lamps into those of the image.
-Light compile_punctual(const LightDesc& desc, std::span<const std::shared_ptr<const IesProfile>> profiles, float scale,
+Light compile_punctual(const LightDesc& desc, const Mat4f& to_world,
+                       std::span<const std::shared_ptr<const IesProfile>> profiles, float scale,
                        const ColorMatrix& from_rec709) {
-    const Vec3f position = transform_point(desc.to_world, Vec3f(0.0f));
-    const Vec3f axis = normalize(transform_vector(desc.to_world, {0.0f, 0.0f, -1.0f}));
+    const Vec3f position = transform_point(to_world, Vec3f(0.0f));
+    const Vec3f axis = normalize(transform_vector(to_world, {0.0f, 0.0f, -1.0f}));
     const Rgb intensity = clamp_negative(from_rec709(desc.color)) * (desc.intensity * scale);
     if (desc.type == LightType::Directional)
         return desc.angle > 0.0f ? Light(SunLight(axis, intensity, desc.angle))
@@ -41,27 +45,38 @@ Light compile_punctual(const LightDesc& desc, std::span<const std::shared_ptr<co
         light.lamp = spot;
     else
         light.lamp = point;
-    light.frame = Frame::from_normal_and_tangent(-axis, transform_vector(desc.to_world, {1.0f, 0.0f, 0.0f}));
+    light.frame = Frame::from_normal_and_tangent(-axis, transform_vector(to_world, {1.0f, 0.0f, 0.0f}));
     light.profile = profiles[static_cast<std::size_t>(desc.profile.index)];
     return light;
 }
 
-std::vector<LightTriangle> world_triangles(const Geometry& geometry, const Instance& instance) {
+/// Returns where `instance` is in the middle of the shutter, as those say who go from one step of its motion to the
+/// next.
+Mat4f middle_of(const WorldData& data, const Instance& instance) {
+    return instance.motion == kNone ? instance.to_world : transform_at(data.motions[instance.motion], kMidShutter);
+}
+
+std::vector<LightTriangle> world_triangles(const Geometry& geometry, const Instance& instance, const Mat4f& to_world) {
     std::vector<LightTriangle> triangles;
     triangles.reserve(geometry.triangles.size());
     for (const auto& t : geometry.triangles) {
         Vec3f p[3] = {geometry.positions[t[0]], geometry.positions[t[1]], geometry.positions[t[2]]};
         if (!instance.baked)
-            for (Vec3f& corner : p) corner = transform_point(instance.to_world, corner);
+            for (Vec3f& corner : p) corner = transform_point(to_world, corner);
         triangles.push_back({p[0], p[1] - p[0], p[2] - p[0]});
     }
     return triangles;
 }
 
-Vec3f mesh_position_error(const Geometry& geometry, const Instance& instance) {
+Vec3f mesh_position_error(const WorldData& data, const Geometry& geometry, const Instance& instance) {
     Vec3f extent(0.0f);
     for (const Vec3f& p : geometry.positions) extent = max_components(extent, abs_components(p));
-    return instance.baked ? position_error(extent) : position_error(extent, instance.to_world);
+    if (instance.baked) return position_error(extent);
+    Vec3f error = position_error(extent, instance.to_world);
+    if (instance.motion != kNone)
+        for (const Mat4f& step : data.motions[instance.motion])
+            error = max_components(error, position_error(extent, step));
+    return error;
 }
 
 Rgb mean_emission(const WorldData& data, const Material& material) {
@@ -76,8 +91,8 @@ Rgb mean_emission(const WorldData& data, const Material& material) {
 /// Counts the emitting surfaces and triangles that are found by chance only, and why.
 struct UnsampledEmitters {
     std::size_t skipped = 0;  ///< triangles beyond the limit
-    std::size_t moving = 0;
-    std::size_t uneven = 0;  ///< elliptic cylinders
+    std::size_t moving = 0;   ///< what deforms, or does more than turn and shift
+    std::size_t uneven = 0;   ///< elliptic cylinders
 };
 
 /// Adds the light of what the geometry `index` of instance `i` emits, which fills `slot`. Returns false if its shape
@@ -91,15 +106,16 @@ bool add_surface_light(std::size_t i, std::uint32_t index, std::uint32_t slot, W
                          !material.has_coat && !shares_place && material.beam.is_diffuse();
     // Rays from it and to it pass what touches it.
     const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
-    const Vec3f error = max_components(mesh_position_error(geometry, instance), Vec3f(reach));
+    const Vec3f error = max_components(mesh_position_error(data, geometry, instance), Vec3f(reach));
+    const Mat4f to_world = middle_of(data, instance);
     const auto light_number = static_cast<std::uint32_t>(data.lights.size());
     if (geometry.shape) {
-        const ExactShape shape = geometry.shape->placed(instance.to_world);
+        const ExactShape shape = geometry.shape->placed(to_world);
         if (!ShapeLight::can_be(shape)) return false;
         data.lights.emplace_back(ShapeLight(shape, material.emission, mean_emission(data, material),
                                             material.emits_both_sides, uniform, error, material.beam));
     } else {
-        MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
+        MeshLight light(world_triangles(geometry, instance, to_world), material.emission, mean_emission(data, material),
                         material.emits_both_sides, instance.mirrors, uniform, error, material.beam);
         if (!(light.area() > 0.0f)) return true;
         data.lights.emplace_back(std::move(light));
@@ -109,6 +125,12 @@ bool add_surface_light(std::size_t i, std::uint32_t index, std::uint32_t slot, W
     return true;
 }
 
+/// Says that the last light moves.
+void set_motion(TransformMotion motion, WorldData& data) {
+    data.motion_of_light.resize(data.lights.size());
+    data.motion_of_light.back() = std::move(motion);
+}
+
 void note_unsampled(const UnsampledEmitters& unsampled, std::size_t most_triangles, ProblemList& problems) {
     if (unsampled.uneven > 0)
         problems.note({}, std::to_string(unsampled.uneven) +
@@ -116,8 +138,8 @@ void note_unsampled(const UnsampledEmitters& unsampled, std::size_t most_triangl
                               "them evenly to have them sampled");
     if (unsampled.moving > 0)
         problems.note({}, std::to_string(unsampled.moving) +
-                              " emissive surfaces move while the shutter is open and will be found "
-                              "by chance only: small ones give noise");
+                              " emissive surfaces deform, change their size or turn fast while the shutter is open and "
+                              "will be found by chance only: small ones give noise");
     if (unsampled.skipped > 0)
         problems.warning({}, std::to_string(unsampled.skipped) + " emissive triangles are beyond the limit of " +
                                  std::to_string(most_triangles) +
@@ -133,7 +155,9 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
             const std::uint32_t index = instance.first_geometry + g;
             const Geometry& geometry = data.geometries[index];
             if (!data.materials[geometry.material].emits || geometry.is_empty()) continue;
-            if (instance.motion != kNone || !geometry.motion.empty()) {
+            std::optional<TransformMotion> motion;
+            if (instance.motion != kNone) motion = rigid_motion(data.motions[instance.motion]);
+            if ((instance.motion != kNone && !motion) || !geometry.motion.empty()) {
                 ++unsampled.moving;
                 continue;
             }
@@ -142,7 +166,9 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
                 continue;
             }
             triangle_count += geometry.triangles.size();
+            const std::size_t before = data.lights.size();
             if (!add_surface_light(i, index, instance.first_light_slot + g, data)) ++unsampled.uneven;
+            if (motion && data.lights.size() > before) set_motion(std::move(*motion), data);
         }
     }
     data.has_unsampled_emitters = unsampled.moving > 0 || unsampled.skipped > 0 || unsampled.uneven > 0;
@@ -158,7 +184,11 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& desc = scene.lights[i];
         if (!(desc.intensity > 0.0f) || !(max_component(desc.color) > 0.0f)) continue;
-        data.lights.push_back(compile_punctual(desc, profiles, scale, data.from_rec709));
+        std::optional<TransformMotion> motion;
+        if (!desc.motion.empty()) motion = rigid_motion(desc.motion);
+        data.lights.push_back(compile_punctual(desc, motion ? transform_at(desc.motion, kMidShutter) : desc.to_world,
+                                               profiles, scale, data.from_rec709));
+        if (motion) set_motion(std::move(*motion), data);
         data.emitter_of_light.push_back({.lamp = static_cast<std::uint32_t>(i)});
     }
     compile_mesh_lights(most_triangles, data, problems);
@@ -169,6 +199,7 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
         data.emitter_of_light.emplace_back();
         data.lights_met_afar.push_back(data.environment);
     }
+    if (!data.motion_of_light.empty()) data.motion_of_light.resize(data.lights.size());
     for (std::uint32_t light = 0; light < data.lights.size(); ++light)
         if (std::holds_alternative<SunLight>(data.lights[light])) data.lights_met_afar.push_back(light);
 }

@@ -5,6 +5,7 @@
 #include "world/embree_geometry_maker.h"
 #include "world/embree_query.h"
 #include "world/embree_shape.h"
+#include "world/motion.h"
 
 #include <algorithm>
 #include <atomic>
@@ -182,8 +183,7 @@ std::size_t EmbreeScene::collect(const Ray& ray, float t_min, std::span<Hit> hit
 }
 
 void EmbreeScene::for_each_near(const Vec3f& point, float radius, const NearVisitor& visit) const {
-    constexpr float kMiddle = 0.5f;
-    RTCPointQuery query{point.x, point.y, point.z, kMiddle, radius};
+    RTCPointQuery query{point.x, point.y, point.z, kMidShutter, radius};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     NearQuery near{&entries_, &visit};

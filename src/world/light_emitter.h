@@ -31,6 +31,7 @@ struct EmittedRay {
     Vec3f point{0.0f};           ///< where it leaves the light; for one at infinity, any point of the ray
     Vec3f direction{0.0f};       ///< unit, away from the light
     float cos_light = 1.0f;      ///< between the direction and the normal of the light's front
+    float time = 0.0f;           ///< when it leaves, [0, 1]
 };
 
 /// Holds the emission of a point of a lamp in one direction.
@@ -65,8 +66,8 @@ class LightEmitter {
     /// Returns the spheres that rays are aimed at; none unless `aims`.
     [[nodiscard]] const LightAim& aim(bool aims) const { return aims ? aim_ : no_aim_; }
     /// Returns the density per area, 1/m², without the choice, with which `sample` picks the point `on_light` of the
-    /// mesh or the shape that is the light of this index.
-    [[nodiscard]] float pdf_area(std::uint32_t light, const Vec3f& on_light) const;
+    /// mesh or the shape that is the light of this index, where it is at `time`.
+    [[nodiscard]] float pdf_area(std::uint32_t light, const Vec3f& on_light, float time) const;
 
     /// Returns the table that chooses.
     [[nodiscard]] const AliasTable& choice() const { return choice_; }

@@ -1,19 +1,40 @@
 #include "world/light_sampler.h"
 
 #include "core/overloaded.h"
+#include "light/light.h"
 #include "world/contacts.h"
 #include "world/materials.h"
 #include "world/mesh_emission.h"
 
+#include <vector>
+
 namespace etendue {
 
-LightSampler::LightSampler(const WorldData& data, const Materials& materials)
-    : data_(data), materials_(materials), tree_(data.lights, data.bounding_radius()) {}
+namespace {
 
-ChosenLight LightSampler::sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u) const {
-    const Light& light = data_.lights[choice.light];
-    ChosenLight chosen{sample_light_compensated(light, point, u.triangle, u.direction), choice.probability,
-                       choice.light};
+std::vector<std::optional<LightBounds>> bounds_of_lights(const WorldData& data) {
+    std::vector<std::optional<LightBounds>> bounds;
+    for (std::uint32_t light = 0; light < data.lights.size(); ++light) bounds.push_back(swept_bounds(data, light));
+    return bounds;
+}
+
+/// Returns where the light of this index sees `point` in the middle of the shutter as it does at `time`.
+Vec3f point_in_light(const WorldData& data, std::uint32_t light, const Vec3f& point, float time) {
+    const auto pose = pose_of_light(data, light, time);
+    return pose ? pose->point_in(point) : point;
+}
+
+}  // namespace
+
+LightSampler::LightSampler(const WorldData& data, const Materials& materials)
+    : data_(data), materials_(materials), tree_(data.lights, bounds_of_lights(data), data.bounding_radius()) {}
+
+ChosenLight LightSampler::sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u,
+                                 float time) const {
+    const auto pose = pose_of_light(data_, choice.light, time);
+    ChosenLight chosen{sample_light_compensated(data_.lights[choice.light], pose ? pose->point_in(point) : point,
+                                                u.triangle, u.direction),
+                       choice.probability, choice.light, time};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
     for (const Vec3f& plane : data_.planes_of(choice.light))
@@ -21,6 +42,7 @@ ChosenLight LightSampler::sample(const LightTree::Choice& choice, const Vec3f& p
     if (!is_black(sample.radiance) && has_uneven_emission(data_, choice.light))
         sample.radiance =
             mesh_emission(data_, materials_, choice.light, sample.triangle, sample.barycentric, -sample.wi);
+    if (pose) pose->take_out(sample, point);
     return chosen;
 }
 
@@ -35,14 +57,15 @@ std::uint32_t LightSampler::at(const SurfacePoint& point) const {
 }
 
 float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point, const Vec3f& direction,
-                                    float distance) const {
+                                    float distance, float time) const {
     const std::uint32_t light = at(point);
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
     const float choice = probability(from, light);
     // Where no light needs it, `from` may mean nothing.
     const auto seen_from = [&](const auto& surface) {
-        return surface.needs_exact_point() ? from.position : point.position - direction * distance;
+        return point_in_light(
+            data_, light, surface.needs_exact_point() ? from.position : point.position - direction * distance, time);
     };
     return of_surface_light(
         data_.lights[light], 0.0f,
@@ -50,14 +73,19 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
                        return mesh.pdf_solid_angle(point.triangle, seen_from(mesh), distance, cos_light) * choice;
                    },
                    [&](const ShapeLight& shape) {
-                       return shape.pdf_solid_angle(seen_from(shape), point.position, cos_light) * choice;
+                       return shape.pdf_solid_angle(seen_from(shape),
+                                                    point_in_light(data_, light, point.position, time), cos_light) *
+                              choice;
                    }});
 }
 
-float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point) const {
-    return of_surface_light(data_.lights[light], 1.0f,
-                            Overloaded{[&](const MeshLight& mesh) { return mesh.gain(triangle, on_light, point); },
-                                       [&](const ShapeLight& shape) { return shape.gain(on_light, point); }});
+float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point,
+                         float time) const {
+    const auto in = [&](const Vec3f& place) { return point_in_light(data_, light, place, time); };
+    return of_surface_light(
+        data_.lights[light], 1.0f,
+        Overloaded{[&](const MeshLight& mesh) { return mesh.gain(triangle, in(on_light), in(point)); },
+                   [&](const ShapeLight& shape) { return shape.gain(in(on_light), in(point)); }});
 }
 
 }  // namespace etendue

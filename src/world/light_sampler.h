@@ -5,6 +5,7 @@
 #include "light/light_sample.h"
 #include "light/light_tree.h"
 #include "light/mesh_light.h"
+#include "world/light_pose.h"
 #include "world/surface_point.h"
 #include "world/world_data.h"
 
@@ -25,6 +26,7 @@ struct ChosenLight {
     /// taken.
     float expected_samples = 0;
     std::uint32_t light = kNone;
+    float time = 0.0f;  ///< when it shines, [0, 1]
 
     /// Returns what the light of the sample is divided by: its density, 1/sr, or of a delta light the samples expected.
     [[nodiscard]] float density() const { return sample.is_delta ? expected_samples : sample.pdf_solid_angle; }
@@ -46,11 +48,12 @@ class LightSampler {
 
     /// Samples light that arrives at `receiver` from a light chosen for it. Of an environment it finds only what is
     /// brighter than its mean: to be combined with samples of the BSDF, by `Environment::pdf_solid_angle`.
-    [[nodiscard]] ChosenLight sample(const LightReceiver& receiver, const LightNumbers& u) const {
-        return sample(choose(receiver, u.light), receiver.position, u);
+    [[nodiscard]] ChosenLight sample(const LightReceiver& receiver, const LightNumbers& u, float time) const {
+        return sample(choose(receiver, u.light), receiver.position, u, time);
     }
-    /// Samples light from what `choose` has chosen.
-    [[nodiscard]] ChosenLight sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u) const;
+    /// Samples light from what `choose` has chosen, where it is at `time`.
+    [[nodiscard]] ChosenLight sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u,
+                                     float time) const;
     /// Chooses a light for `receiver`, with `u` in [0, 1)².
     [[nodiscard]] LightTree::Choice choose(const LightReceiver& receiver, Vec2f u) const {
         return tree_.sample(receiver, u);
@@ -63,27 +66,25 @@ class LightSampler {
         return tree_.probability(receiver, light);
     }
     /// Returns the density, choice included, with which `sample` for `from` would have picked the direction that hit
-    /// the emitter `point` at `distance`; 0 if it is no sampled light. `from` means nothing unless the scene
+    /// the emitter `point` at `distance` and `time`; 0 if it is no sampled light. `from` means nothing unless the scene
     /// `chooses_lights_by_receiver`.
     [[nodiscard]] float pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point, const Vec3f& direction,
-                                        float distance) const;
+                                        float distance, float time) const;
     /// Returns how many times as densely `sample` at `point` picks the place `on_light`, of this triangle of the light
     /// of this index, as `LightEmitter::sample` does, both without the choice; 1 for lights without a surface.
-    [[nodiscard]] float gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light,
-                             const Vec3f& point) const;
+    [[nodiscard]] float gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point,
+                             float time) const;
 
     /// Returns the light that the surface at `point` belongs to; kNone if it is not sampled.
     [[nodiscard]] std::uint32_t at(const SurfacePoint& point) const;
     /// Returns how many lights there are, the environment included.
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(data_.lights.size()); }
-    /// Returns where the light of this index is and where it shines; none at infinity.
-    [[nodiscard]] std::optional<LightBounds> bounds(std::uint32_t light) const {
-        return light_bounds(data_.lights[light]);
-    }
-    /// Returns the mesh light of this index if it shines evenly, else null.
+    /// Returns where the light of this index is while the shutter is open, and where it shines; none at infinity.
+    [[nodiscard]] std::optional<LightBounds> bounds(std::uint32_t light) const { return swept_bounds(data_, light); }
+    /// Returns the mesh light of this index if it shines evenly and stands still, else null.
     [[nodiscard]] const MeshLight* even_mesh(std::uint32_t light) const {
         const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light]);
-        return mesh != nullptr && mesh->is_uniform() ? mesh : nullptr;
+        return mesh != nullptr && mesh->is_uniform() && data_.motion_of(light) == nullptr ? mesh : nullptr;
     }
     /// Says what the light of this index is.
     [[nodiscard]] const Emitter& emitter(std::uint32_t light) const { return data_.emitter_of_light[light]; }

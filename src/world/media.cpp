@@ -7,6 +7,7 @@
 #include "light/light.h"
 #include "sampling/sampler.h"
 #include "world/contacts.h"
+#include "world/motion.h"
 #include "world/scene_camera.h"
 #include "world/scene_geometry.h"
 
@@ -19,9 +20,6 @@
 namespace etendue {
 
 namespace {
-
-/// Is the middle of the time, [0, 1], in which the shutter is open.
-constexpr float kMiddle = 0.5f;
 
 void set_indices(const WorldData& data, std::uint32_t body, Crossing& crossing) {
     const Filling& inside = data.fillings[data.filling_of_body[body]];
@@ -157,11 +155,13 @@ Media::Media(const WorldData& data, const SceneGeometry& geometry, const SceneCa
     if (data_.filling_of_body.empty()) return;
     camera_interior_.reset();
     if (!is_divided(data_, camera.bounds_of_origins()))
-        camera_interior_ = interior_at(camera.generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin, kMiddle);
+        camera_interior_ =
+            interior_at(camera.generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMidShutter).origin, kMidShutter);
     const std::vector<Bounds> moving = moving_boundaries(data_);
     for (std::uint32_t light = 0; light < data_.lights.size(); ++light)
-        light_interiors_.push_back(is_passed_over(data_.lights[light], moving) ? std::nullopt
-                                                                               : find_light_interior(light));
+        light_interiors_.push_back(data_.motion_of(light) != nullptr || is_passed_over(data_.lights[light], moving)
+                                       ? std::nullopt
+                                       : find_light_interior(light));
 }
 
 std::optional<Interior> Media::find_light_interior(std::uint32_t light) const {
@@ -173,7 +173,7 @@ std::optional<Interior> Media::find_light_interior(std::uint32_t light) const {
         const auto numbers = [&](std::uint32_t d) { return sample_2d(SampleSequence::Sobol, {.index = i}, d); };
         const EmissionNumbers u{.triangle = numbers(0), .position = numbers(1), .direction = numbers(2)};
         const EmissionSample ray = sample_emission(data_.lights[light], u, data_.bounding_sphere());
-        const Interior interior = interior_at(ray.origin(ray.direction), kMiddle);
+        const Interior interior = interior_at(ray.origin(ray.direction), kMidShutter);
         if (common && !(*common == interior)) return {};
         common = interior;
     }

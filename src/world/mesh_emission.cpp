@@ -4,6 +4,7 @@
 #include "world/contacts.h"
 #include "world/material_evaluation.h"
 #include "world/materials.h"
+#include "world/motion.h"
 #include "world/surface_point.h"
 
 #include <cstddef>
@@ -36,11 +37,10 @@ bool has_uneven_emission(const WorldData& data, std::uint32_t light) {
 
 Rgb mesh_emission(const WorldData& data, const Materials& materials, std::uint32_t light, std::uint32_t triangle,
                   Vec2f barycentric, const Vec3f& direction) {
-    // Surfaces that move are no lights, so that any time will do.
-    constexpr float kAnyTime = 0.0f;
+    // Lights are what they are in the middle of the shutter.
     const Emitter& emitter = data.emitter_of_light[light];
     const SurfacePoint point =
-        make_surface_point(data, emitter.instance, emitter.geometry, triangle, barycentric, kAnyTime, ConeSection{});
+        make_surface_point(data, emitter.instance, emitter.geometry, triangle, barycentric, kMidShutter, ConeSection{});
     if (!is_foremost_emitter(data, point, barycentric, direction)) return {};
     return materials.emission(point, direction) * evaluate_opacity(data, emitter.geometry, triangle, barycentric);
 }

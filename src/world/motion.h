@@ -10,6 +10,9 @@
 
 namespace etendue {
 
+/// Is the time at which everything is that has one place: lights, bodies, what is asked about the whole shutter.
+inline constexpr float kMidShutter = 0.5f;
+
 /// Between which two of some equally spaced steps a time lies.
 struct MotionSegment {
     std::size_t first = 0;  ///< the other step is the next

@@ -29,7 +29,7 @@ SceneTraits find_traits(const WorldData& data, const Media& media, const LightSa
     traits.has_transparency = traits.culls_backs || std::ranges::any_of(data.materials, [](const Material& m) {
                                   return m.alpha_test != AlphaTest::Opaque;
                               });
-    traits.has_motion = data.bvh->has_motion() || !data.camera_motion.empty();
+    traits.has_motion = data.bvh->has_motion() || !data.camera_motion.empty() || !data.motion_of_light.empty();
     traits.has_lens = has_lens(data.camera);
     traits.film_wraps = film_wraps(data.camera);
     traits.has_blind_film = has_blind_film(data.camera);

@@ -49,9 +49,12 @@ struct WorldData {
     std::vector<Light> lights;
     std::vector<Emitter> emitter_of_light;     ///< emitter of each light
     std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled
-    bool has_unsampled_emitters = false;       ///< some surface that emits is none of `lights`
-    std::uint32_t environment = kNone;         ///< index into `lights`
-    bool environment_visible = true;           ///< to camera rays
+    /// Holds how each light moves from its place in `lights`, that of the middle of the shutter; empty if none moves,
+    /// and of those that stand still.
+    std::vector<TransformMotion> motion_of_light;
+    bool has_unsampled_emitters = false;  ///< some surface that emits is none of `lights`
+    std::uint32_t environment = kNone;    ///< index into `lights`
+    bool environment_visible = true;      ///< to camera rays
     /// Lists the lights that rays meet which leave the scene: the environment, if there is one, and then the suns.
     std::vector<std::uint32_t> lights_met_afar;
     Camera camera;
@@ -86,6 +89,10 @@ struct WorldData {
     [[nodiscard]] float bounding_radius() const;
     /// Returns a sphere around all geometry, for light that comes from infinitely far away.
     [[nodiscard]] SceneSphere bounding_sphere() const { return {bounds.center(), bounding_radius()}; }
+    /// Returns how the light of this index moves; null if it stands still.
+    [[nodiscard]] const TransformMotion* motion_of(std::uint32_t light) const {
+        return motion_of_light.empty() || motion_of_light[light].empty() ? nullptr : &motion_of_light[light];
+    }
     /// Returns what takes a ray clear of surfaces that the light of this index lies in.
     [[nodiscard]] std::span<const Vec3f> planes_of(std::uint32_t light) const {
         return planes_of_light.empty() ? std::span<const Vec3f>() : planes_of_light[light];

@@ -44,6 +44,32 @@ void under_hidden_lamp(SceneDesc& scene) {
     add_object(scene, quad({0.1f, -0.3f, -2.3f}, {0.3f, 0, 0.1f}, {0, 0.1f, -0.2f}), add_material(scene, card));
 }
 
+/// A room under a lamp that turns while it passes, and a spot that flies the other way.
+void under_moving_lamps(SceneDesc& scene) {
+    add_ball(scene, gltf_plastic());
+    MaterialDesc lamp = emissive(Rgb(12.0f));
+    lamp.beam = {.kind = BeamDesc::Kind::Panel, .spread = 2.0f};
+    add_object(scene, quad({0, 0, 0}, {0.25f, 0, 0}, {0, 0, 0.25f}), add_material(scene, lamp));
+    LightDesc spot;
+    spot.type = LightType::Spot;
+    spot.intensity = 1.5f;
+    spot.inner_cone_angle = 0.3f;
+    spot.outer_cone_angle = 0.7f;
+    constexpr int kSteps = 33;
+    for (int i = 0; i < kSteps; ++i) {
+        const float t = static_cast<float>(i) / (kSteps - 1);
+        Mat4f leaning;
+        leaning.setEulerAngles(Vec3f(0.0f, 0.0f, 1.2f * t - 0.6f));
+        scene.instances.back().motion.push_back(leaning * translation({1.0f * t - 0.5f, 1.2f, -2.8f}));
+        Mat4f aimed;
+        aimed.setEulerAngles(Vec3f(0.4f - 0.8f * t, 0.3f, 0.0f));
+        spot.motion.push_back(aimed * translation({0.5f - 1.0f * t, 0.2f, -1.2f}));
+    }
+    scene.instances.back().to_world = scene.instances.back().motion[kSteps / 2];
+    spot.to_world = spot.motion[kSteps / 2];
+    scene.lights.push_back(spot);
+}
+
 /// A room with exact shapes of all kinds, three of which are lamps, one of them within reach of the wall.
 void under_shapes(SceneDesc& scene) {
     const auto ball = add_material(scene, gltf_plastic());
@@ -398,6 +424,7 @@ std::vector<AgreementCase> all_cases() {
                      bdpt});
     // Cones of directions from points, areas for light paths; lamps, bodies and receivers that are exact.
     cases.push_back({"ShapeLamps", under_shapes, {.max_depth = 4}, all, 16, {"path", "light", "bdpt", "vcm"}});
+    cases.push_back({"MovingLamps", under_moving_lamps, {.max_depth = 4}, all, 16, {"path", "light", "bdpt"}});
     return cases;
 }
 

@@ -72,8 +72,57 @@ ClosedFormCase rising_lamp() {
     scene.instances.back().motion = {translation({0.0f, static_cast<float>(kLow), 0.0f}),
                                      translation({0.0f, static_cast<float>(kHigh), 0.0f})};
     const double mean = kRadius / (kHigh - kLow) * (std::atan(kHigh / kRadius) - std::atan(kLow / kRadius));
-    // Lights that move are not sampled: not for `whitted`, which meets them in mirrors only.
-    return {"rising_lamp", scene, 0.6 * 3.0 * mean, 1e-3, {}, {"path", "direct", "naive", "bdpt"}};
+    return {"rising_lamp", scene, 0.6 * 3.0 * mean, 1e-3};
+}
+
+/// A sphere of radius r rises from height a to b above a floor: the mean of (r / h)² is r² / (a b).
+ClosedFormCase rising_ball() {
+    constexpr double kRadius = 0.3;
+    constexpr double kLow = 0.6;
+    constexpr double kHigh = 2.0;
+    SceneDesc scene = floor();
+    PrimitiveDesc ball;
+    ball.shape = ShapeDesc{ShapeKind::Sphere, Vec3f(static_cast<float>(kRadius))};
+    ball.positions = ball.shape->corners();
+    add(scene, ball, emitter(3.0f));
+    // The scale of the place is that of the shape.
+    scene.instances.back().motion = {translation({0.0f, static_cast<float>(kLow), 0.013f}),
+                                     translation({0.0f, static_cast<float>(kHigh), 0.013f})};
+    scene.instances.back().to_world = translation({0.0f, static_cast<float>(0.5 * (kLow + kHigh)), 0.013f});
+    return {"rising_ball", scene, 0.6 * 3.0 * kRadius * kRadius / (kLow * kHigh), 1e-3};
+}
+
+/// A point of intensity I flies at height h over a floor, from -a to a: the mean of I h / (x² + h²)^1.5 is
+/// I / (h (a² + h²)^0.5).
+ClosedFormCase flying_point() {
+    constexpr double kHeight = 0.7;
+    constexpr double kFar = 1.5;
+    SceneDesc scene = floor();
+    LightDesc& light = add_light(scene, LightType::Point, 5.0f, {0.0f, static_cast<float>(kHeight), 0.013f});
+    for (const double x : {-kFar, kFar})
+        light.motion.push_back(light.to_world * translation({static_cast<float>(x), 0.0f, 0.0f}));
+    return {"flying_point", scene, 0.6 / std::numbers::pi * 5.0 / (kHeight * std::hypot(kFar, kHeight)),
+            1e-3,           {},    kFindDeltaLights};
+}
+
+/// A spot with a hard edge 0.5 rad from its axis turns by a half circle: it lights the point below for 1 / pi of the
+/// time.
+ClosedFormCase turning_spot() {
+    constexpr double kAngle = 0.5;
+    SceneDesc scene = floor();
+    LightDesc& light = add_light(scene, LightType::Spot, 5.0f, {0.0f, 2.0f, 0.013f});
+    light.inner_cone_angle = static_cast<float>(kAngle);
+    light.outer_cone_angle = static_cast<float>(kAngle);
+    constexpr int kSteps = 129;
+    for (int i = 0; i < kSteps; ++i) {
+        Mat4f turned;
+        turned.setEulerAngles(Vec3f(0.0f, 0.0f, kPi * (static_cast<float>(i) / (kSteps - 1) - 0.5f)));
+        Mat4f at_origin = light.to_world;
+        at_origin[3][0] = at_origin[3][1] = at_origin[3][2] = 0.0f;
+        light.motion.push_back(at_origin * turned * translation({0.0f, 2.0f, 0.013f}));
+    }
+    return {"turning_spot", scene, 0.6 / std::numbers::pi * 5.0 / 4.0 * (2.0 * kAngle / std::numbers::pi),
+            2e-3,           {},    kFindDeltaLights};
 }
 
 /// The camera pans over an emitter that is half of what it sees, also over the width of its view.
@@ -99,8 +148,8 @@ ClosedFormCase moving_furnace() {
 }  // namespace
 
 std::vector<ClosedFormCase> motion_cases() {
-    return {passing_emitter(), turning_emitter(), passing_shadow(), rising_lamp(),
-            moving_camera("moving_camera", 1e-4f, kFindDirectLight),
+    return {passing_emitter(), turning_emitter(), passing_shadow(), rising_lamp(), rising_ball(), flying_point(),
+            turning_spot(), moving_camera("moving_camera", 1e-4f, kFindDirectLight),
             // Pixels differ, so that only means of images are compared.
             moving_camera("moving_wide_camera", 0.5f, {"light", "bdpt"}), moving_furnace()};
 }

@@ -35,7 +35,7 @@ TEST(CompileLights, PunctualLightsTakePlaceAndAxisFromTheirNode) {
             scene.lights.push_back(light);
             const World world = compile(std::move(scene));
             const ChosenLight chosen =
-                world.lights().sample(position + axis * 2.0f, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
+                world.lights().sample(position + axis * 2.0f, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}, 0.0f);
             EXPECT_EQ(chosen.expected_samples, 1.0f);
             EXPECT_TRUE(chosen.sample.is_delta);
             EXPECT_GT(dot(chosen.sample.wi, -axis), 0.99999f);
@@ -55,9 +55,10 @@ TEST(CompileLights, SpotsKeepTheirFullIntensityHoweverNarrow) {
             light.inner_cone_angle = inner * outer;
             scene.lights.push_back(light);
             const World world = compile(std::move(scene));
-            EXPECT_NEAR(
-                world.lights().sample(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g,
-                3.0f, 1e-3f)
+            EXPECT_NEAR(world.lights()
+                            .sample(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}, 0.0f)
+                            .sample.radiance.g,
+                        3.0f, 1e-3f)
                 << "outer " << outer << ", inner share " << inner;
         }
 }
@@ -70,7 +71,7 @@ TEST(CompileLights, RadiometricUnitsDivideLampsOnly) {
         const auto seen = [](const SceneDesc& s) {
             return compile(s)
                 .lights()
-                .sample(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
+                .sample(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}, 0.0f)
                 .sample.radiance.g;
         };
         EXPECT_FLOAT_EQ(seen(scene), 6.0f);
@@ -112,7 +113,7 @@ TEST(CompileLights, ProfilesFollowTheAxesOfTheirLight) {
         EXPECT_TRUE(world.traits().has_delta_lights);
         const auto seen_at = [&](const Vec3f& local) {
             return world.lights()
-                .sample(transform_point(light.to_world, local), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
+                .sample(transform_point(light.to_world, local), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}, 0.0f)
                 .sample.radiance.g;
         };
         EXPECT_NEAR(seen_at({0, 0, -2}), 200.0f / 4.0f, 1e-2f);
@@ -165,7 +166,9 @@ TEST(CompileLights, EmittersThatAreNotSampledAreKnown) {
         EXPECT_EQ(data.has_unsampled_emitters, most < 4);
         EXPECT_EQ(problems.all().size(), most < 4 ? 1u : 0u);
     }
-    scene.instances.front().motion = {Mat4f(), translation({1, 0, 0})};
+    Mat4f grown;
+    grown.setScale(Vec3f(1.5f));
+    scene.instances.front().motion = {Mat4f(), grown};
     EXPECT_TRUE(compile(scene).traits().has_unsampled_emitters);
 }
 

@@ -194,11 +194,74 @@ TEST(Motion, TheCameraIsWhereItIsAtTheTime) {
     }
 }
 
-TEST(Motion, LightsThatMoveAreLeftToChance) {
+TEST(Motion, LampsAreSampledWhereTheyAre) {
     SceneDesc scene = empty_scene();
     const auto material = add_material(scene, emissive(Rgb(2.0f)));
     add_object(scene, quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0}), material);
-    scene.instances[0].motion = {translation({0, 0, 0}), translation({1, 0, 0})};
+    for (int i = 0; i <= 16; ++i) {
+        const float t = static_cast<float>(i) / 16.0f;
+        scene.instances[0].motion.push_back(rotation_about_y(0.6f * t) *
+                                            translation({2.0f * t - 1.0f, 0.0f, 0.5f * t}));
+    }
+    ProblemList problems;
+    const World world = compile(scene, "Linear Rec.709 (sRGB)", problems);
+    EXPECT_TRUE(problems.all().empty());
+    Random random(1);
+    const Vec3f from(0.2f, 0.1f, 0.0f);
+    for (int i = 0; i < 100; ++i) {
+        const float time = random.next();
+        const ChosenLight chosen =
+            world.lights().sample(from, {random.next_2d(), random.next_2d(), random.next_2d()}, time);
+        const LightSample& sample = chosen.sample;
+        EXPECT_EQ(sample.radiance, Rgb(2.0f));
+        Ray ray;
+        ray.origin = from;
+        ray.direction = sample.wi;
+        ray.time = time;
+        const Hit hit = intersect(world, ray);
+        ASSERT_TRUE(hit.valid());
+        EXPECT_NEAR(hit.t, sample.distance, 1e-4f);
+        const SurfacePoint point = world.geometry().surface_point(hit);
+        EXPECT_NEAR(dot(point.geometric_normal, -sample.wi), sample.cos_light, 1e-3f);
+        const float pdf = world.lights().pdf_solid_angle(from, point, ray.direction, hit.t, time);
+        EXPECT_NEAR(pdf, sample.pdf_solid_angle, 3e-3f * pdf);
+        // It stays within the bounds by which it is chosen.
+        const Bounds box = world.lights().bounds(0)->box;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_GE(point.position[axis], box.min[axis] - 1e-5f);
+            EXPECT_LE(point.position[axis], box.max[axis] + 1e-5f);
+        }
+    }
+}
+
+TEST(Motion, RaysLeaveLampsWhereTheyAre) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0}), add_material(scene, emissive(Rgb(2.0f))));
+    scene.instances[0].motion = {translation({-1, 0, 0}), translation({1, 0, 0.5f})};
+    const World world = compile(scene);
+    Random random(1);
+    for (int i = 0; i < 100; ++i) {
+        const float time = random.next();
+        const Emission emission = world.emitters().sample(
+            random.next_2d(), {random.next_2d(), random.next_2d(), random.next_2d()}, time, false);
+        // Back towards the lamp.
+        Ray ray;
+        ray.origin = emission.ray.origin + emission.ray.direction;
+        ray.direction = -emission.ray.direction;
+        ray.time = time;
+        const Hit hit = intersect(world, ray);
+        ASSERT_TRUE(hit.valid());
+        EXPECT_NEAR(hit.t, 1.0f, 1e-3f);
+    }
+}
+
+TEST(Motion, LampsThatChangeTheirSizeAreLeftToChance) {
+    SceneDesc scene = empty_scene();
+    const auto material = add_material(scene, emissive(Rgb(2.0f)));
+    add_object(scene, quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0}), material);
+    Mat4f grown;
+    grown.setScale(Vec3f(1.1f));
+    scene.instances[0].motion = {translation({0, 0, 0}), grown * translation({1, 0, 0.3f})};
     ProblemList problems;
     const World world = compile(scene, "Linear Rec.709 (sRGB)", problems);
     EXPECT_FALSE(world.traits().has_lights);
@@ -213,7 +276,7 @@ TEST(Motion, LightsThatMoveAreLeftToChance) {
     ASSERT_TRUE(hit.valid());
     const SurfacePoint point = world.geometry().surface_point(hit);
     EXPECT_EQ(world.materials().emission(point, {0, 0, 1}), Rgb(2.0f));
-    EXPECT_EQ(world.lights().pdf_solid_angle(ray.origin, point, ray.direction, hit.t), 0.0f);
+    EXPECT_EQ(world.lights().pdf_solid_angle(ray.origin, point, ray.direction, hit.t, ray.time), 0.0f);
 }
 
 TEST(MotionSegment, TimesFallBetweenSteps) {

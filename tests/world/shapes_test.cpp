@@ -305,10 +305,10 @@ TEST(Shapes, RectanglesAreSampledAsRectangles) {
     // Its front looks along -z: only from there it shines, with one density in all directions.
     const LightNumbers u{{0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}};
     const LightNumbers v{{0.1f, 0.2f}, {0.8f, 0.1f}, {0.9f, 0.2f}};
-    const float density = world.lights().sample(Vec3f(0.0f, 0.0f, -0.3f), u).sample.pdf_solid_angle;
+    const float density = world.lights().sample(Vec3f(0.0f, 0.0f, -0.3f), u, 0.0f).sample.pdf_solid_angle;
     EXPECT_GT(density, 0.0f);
-    EXPECT_NEAR(world.lights().sample(Vec3f(0.0f, 0.0f, -0.3f), v).sample.pdf_solid_angle / density, 1.0f, 1e-4f);
-    EXPECT_EQ(world.lights().sample(Vec3f(0.0f, 0.0f, 0.3f), u).sample.pdf_solid_angle, 0.0f);
+    EXPECT_NEAR(world.lights().sample(Vec3f(0.0f, 0.0f, -0.3f), v, 0.0f).sample.pdf_solid_angle / density, 1.0f, 1e-4f);
+    EXPECT_EQ(world.lights().sample(Vec3f(0.0f, 0.0f, 0.3f), u, 0.0f).sample.pdf_solid_angle, 0.0f);
 }
 
 TEST(Shapes, EncloseBodiesIfTheyAreNotFlat) {

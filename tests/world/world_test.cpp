@@ -57,7 +57,7 @@ TEST(World, LightSamplesAndHitsAgree) {
         for (int i = 0; i < 3000; ++i) {
             const Vec3f from = random_direction(random) * 1.2f;
             const ChosenLight chosen =
-                world.lights().sample(from, {random.next_2d(), random.next_2d(), random.next_2d()});
+                world.lights().sample(from, {random.next_2d(), random.next_2d(), random.next_2d()}, 0.0f);
             const LightSample& sample = chosen.sample;
             // What lies in between is another matter; start close to the sampled point.
             const float back = 0.02f * sample.distance;
@@ -69,7 +69,7 @@ TEST(World, LightSamplesAndHitsAgree) {
             const float cosine = abs_dot(point.geometric_normal, sample.wi);
             if (cosine < 0.02f) continue;
             EXPECT_EQ(world.materials().emission(point, -sample.wi), sample.radiance);
-            const float pdf = world.lights().pdf_solid_angle(from, point, sample.wi, sample.distance);
+            const float pdf = world.lights().pdf_solid_angle(from, point, sample.wi, sample.distance, 0.0f);
             if (is_black(sample.radiance)) {
                 ++dark;
                 EXPECT_EQ(pdf, 0.0f);
@@ -99,7 +99,7 @@ TEST(World, OneSidedEmittersAreDarkBehind) {
             const bool lit = two_sided || side > 0.0f;
             EXPECT_EQ(world.materials().emission(world.geometry().surface_point(hit), {0, 0, side}),
                       lit ? Rgb(5.0f) : Rgb(0.0f));
-            EXPECT_EQ(is_black(world.lights().sample(from, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.6f}}).sample.radiance),
+            EXPECT_EQ(is_black(world.lights().sample(from, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.6f}}, 0.0f).sample.radiance),
                       !lit);
         }
     }
@@ -134,7 +134,7 @@ TEST(World, BothStrategiesSeeTexturedAndTranslucentEmittersAlike) {
     Sum by_chance;
     for (int i = 0; i < kSamples; ++i) {
         const LightSample light =
-            world.lights().sample(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()}).sample;
+            world.lights().sample(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()}, 0.0f).sample;
         by_light.add(is_black(light.radiance)
                          ? 0.0
                          : static_cast<double>(light.radiance.g * -light.wi.z / light.pdf_solid_angle));
@@ -165,7 +165,7 @@ TEST(World, LightsAreChosenByPower) {
     constexpr int kSamples = 10'000;
     for (int i = 0; i < kSamples; ++i) {
         const ChosenLight chosen =
-            world.lights().sample(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()});
+            world.lights().sample(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()}, 0.0f);
         const bool is_bright = chosen.sample.wi.x > 0.0f;
         EXPECT_NEAR(chosen.expected_samples, is_bright ? 0.7425f : 0.2575f, 1e-6f);
         bright += is_bright ? 1 : 0;

@@ -143,7 +143,7 @@ void BdptWave::start(const World& world, const TileJob& job, const IntegratorSet
                 arrive_from_lens(mis, {}, world.camera().connect(point.position, sample.lens, ray.time),
                                  static_cast<double>(abs_dot(ray.direction, point.geometric_normal)));
             return WeightRule{mis.raised, settings.weighted}.weight(
-                sums_at_seen_emitter(mis, light, point.position, arrived));
+                sums_at_seen_emitter(mis, light, point.position, ray.time, arrived));
         });
 }
 

@@ -62,7 +62,10 @@ void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::siz
         const LightTree::Choice& choice = choices_[i];
         const MeshLight* mesh = meshes[i];
         if (mesh == nullptr) {
-            to_lights_.push_back({&vertex, world.lights().sample(choice, points[i], {light, triangle, direction}), {}});
+            to_lights_.push_back({&vertex,
+                                  world.lights().sample(choice, points[i], {light, triangle, direction},
+                                                        job.camera_rays[vertex.slot].time),
+                                  {}});
             continue;
         }
         const std::size_t lane = wide_to_lights_.size();

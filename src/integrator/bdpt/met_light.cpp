@@ -46,7 +46,8 @@ void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const Rgb emitted = world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
     count(state);
-    add(state, emitted, sums_of_met_lamp(parts_.job.mis, state, point, -direction, arrived),
+    add(state, emitted,
+        sums_of_met_lamp(parts_.job.mis, state, point, -direction, parts_.job.camera_rays[state.slot].time, arrived),
         parts_.eye.vertices().words().surface_source(point));
 }
 

@@ -37,7 +37,7 @@ void PathLight::sample(const PathContext& context, const LaneList& paths, std::u
         const std::size_t k = paths[place];
         make_in_place(block_.lights[k], [&] {
             return context.world.lights().sample(chosen.choices[place], block_.lanes.position[k],
-                                                 block_.light_numbers(k));
+                                                 block_.light_numbers(k), paths_.time[block_.first + k]);
         });
     }
     // What is where those who ask next do not look for it.
@@ -212,10 +212,11 @@ void PathLight::add_emission(const PathContext& context, std::size_t k) {
     count_met_light(context, i);
     float weight = 1.0f;
     if (const std::uint32_t samples = paths_.samples_of_met_light(context, i); samples > 0)
-        weight = met_light_weight(paths_.pdf_solid_angle[i],
-                                  context.world.lights().pdf_solid_angle(paths_.receiver(i), point, direction,
-                                                                         paths_.metres_passed(i) + paths_.hits[i].t),
-                                  samples);
+        weight = met_light_weight(
+            paths_.pdf_solid_angle[i],
+            context.world.lights().pdf_solid_angle(paths_.receiver(i), point, direction,
+                                                   paths_.metres_passed(i) + paths_.hits[i].t, paths_.time[i]),
+            samples);
     add(i, emitted * weight, paths_.words.surface_source(point));
 }
 
@@ -299,7 +300,7 @@ void PathLight::queue_shadow_rays_in_medium(const PathContext& context, std::siz
         const LightNumbers numbers = round == 0 ? block_.light_numbers(k) : draw_numbers(context, k, round);
         LightTree::Choice choice = context.world.lights().choose(position, numbers.light);
         share_estimate(choice, samples);
-        const ChosenLight chosen = context.world.lights().sample(choice, position, numbers);
+        const ChosenLight chosen = context.world.lights().sample(choice, position, numbers, paths_.time[i]);
         const LightSample& light = chosen.sample;
         if (is_black(light.radiance)) continue;
         const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);

@@ -96,7 +96,7 @@ class Placer {
                 {document_.model.nodes[node].name,
                  parent == kNoParent ? NodeDesc::kNone : node_index_[static_cast<std::size_t>(parent)],
                  static_cast<std::uint32_t>(placed.node), to_float(placed.to_world),
-                 !nodes_.motion(placed.node).empty()});
+                 motion_of_node(placed.node, document_.at(fmt::format("/nodes/{}", placed.node)))});
         }
     }
 
@@ -120,8 +120,9 @@ class Placer {
         if (node.camera >= 0 && placed.to_world.determinant() < 0.0)
             problems_.note(where, "mirrors its camera, but the image is not mirrored: cameras have no scale in glTF");
         if (shines) {
+            const std::size_t before = scene_.lights.size();
             lights_.place(node, *rigid, where);
-            if (!motion.empty()) ++moving_lights_;
+            if (!motion.empty()) move_lights(std::span(scene_.lights).subspan(before), *rigid, motion, where);
         }
     }
 
@@ -133,15 +134,41 @@ class Placer {
         return bytes;
     }
 
-    void report_moving_lights() const {
-        if (moving_lights_ == 0) return;
+    void report_turning_suns() const {
+        if (turning_suns_ == 0) return;
         problems_.note(document_.at("/animations"),
-                       fmt::format("{} punctual lights move while the shutter is open; they are taken to stand still "
-                                   "where they are in the middle of it",
-                                   moving_lights_));
+                       fmt::format("{} directional lights turn while the shutter is open; they are taken to shine as "
+                                   "they do in the middle of it",
+                                   turning_suns_));
     }
 
   private:
+    /// Returns how a node moves while the shutter is open, for what render.json puts there.
+    [[nodiscard]] TransformMotion motion_of_node(int node, const SourceLocation& where) {
+        const std::span<const Mat4d> steps = nodes_.motion(node);
+        if (steps.empty() || !accessors_.allocate(steps.size(), sizeof(Mat4f), where)) return {};
+        return thin_out(steps, Bounds{Vec3f(-1.0f), Vec3f(1.0f)});
+    }
+
+    /// Returns the poses of `motion`, without its scale, of what is at `to_world` in the middle of it.
+    [[nodiscard]] static std::vector<Mat4f> rigid_poses(const Mat4f& to_world, std::span<const Mat4d> motion) {
+        std::vector<Mat4f> poses;
+        for (const Mat4d& step : motion) poses.push_back(rigid_part(to_float(step)).value_or(to_world));
+        return poses.empty() ? poses : thin_out_poses(poses);
+    }
+
+    /// Has the lights of a node move with it.
+    void move_lights(std::span<LightDesc> lights, const Mat4f& to_world, std::span<const Mat4d> motion,
+                     const SourceLocation& where) {
+        const std::vector<Mat4f> poses = rigid_poses(to_world, motion);
+        if (!accessors_.allocate(lights.size() * poses.size(), sizeof(Mat4f), where)) return;
+        for (LightDesc& light : lights)
+            if (light.type == LightType::Directional)
+                ++turning_suns_;
+            else
+                light.motion = poses;
+    }
+
     /// Places the mesh of `node` everywhere the node has it.
     void place_meshes(const tinygltf::Node& node, const PlacedNode& placed, const SourceLocation& where) {
         const MeshDeformer::Result mesh = deformer_.deform(placed.node, where);
@@ -241,9 +268,7 @@ class Placer {
         camera.node = node.name;
         camera.to_world = to_world;
         // Its scale has no meaning.
-        std::vector<Mat4f> poses;
-        for (const Mat4d& step : motion) poses.push_back(rigid_part(to_float(step)).value_or(to_world));
-        if (!poses.empty()) camera.motion = thin_out_poses(poses);
+        camera.motion = rigid_poses(to_world, motion);
         camera.location = document_.at(fmt::format("/cameras/{}", node.camera));
         if (source.type == "orthographic") {
             camera.type = CameraType::Orthographic;
@@ -273,7 +298,7 @@ class Placer {
     std::vector<std::uint32_t> node_index_;    ///< index in the scene of each of the file's nodes
     std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
     std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
-    std::size_t moving_lights_ = 0;
+    std::size_t turning_suns_ = 0;
     std::size_t longest_light_name_ = 0;  ///< bytes
     FreeNames camera_names_;              ///< cameras are chosen by name, so each has one of its own
 };
@@ -318,7 +343,7 @@ void place_all(const GltfDocument& document, AccessorReader& accessors, std::spa
     Placer placer(document, accessors, deformer, nodes, scene, problems);
     placer.add_nodes(parents);
     for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
-    placer.report_moving_lights();
+    placer.report_turning_suns();
 }
 
 }  // namespace

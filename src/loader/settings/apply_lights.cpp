@@ -116,7 +116,7 @@ class LightChanges {
             if (change.kind) prepare(name, change, added);
         remove_or_soften();
         for (const LampToAdd& lamp : added) add(lamp);
-        note_moving(added);
+        note_turning_suns(added);
     }
 
   private:
@@ -133,9 +133,9 @@ class LightChanges {
     struct LampToAdd {
         const std::string* name;
         const LightOverride* lamp;
-        Mat4f to_world;
+        Mat4f to_world{};
         std::uint32_t node = NodeDesc::kNone;
-        bool replaces = false;  ///< a lamp of the file stood there
+        TransformMotion motion{};
     };
 
     [[nodiscard]] static SourceLocation at(const LightOverride& change, std::string_view key) {
@@ -242,7 +242,7 @@ class LightChanges {
         const std::vector<std::size_t> replaced = lamps_of(name);
         for (const std::size_t i : replaced) softening_[i].is_left_out = true;
         if (!lamp.enabled) return;
-        LampToAdd one{&name, &lamp, {}};
+        LampToAdd one{&name, &lamp};
         if (lamp.place.position) {
             one.to_world = placed(lamp.place, scene_.origin);
             added.push_back(one);
@@ -250,7 +250,7 @@ class LightChanges {
             for (const std::size_t i : replaced) {
                 one.to_world = scene_.lights[i].to_world;
                 one.node = node_of(scene_.lights[i].node);
-                one.replaces = true;
+                one.motion = rigid_steps(motion_of(one.node), one.to_world);
                 added.push_back(one);
             }
         } else {
@@ -258,6 +258,7 @@ class LightChanges {
             one.node = node_of(node);
             if (one.node == NodeDesc::kNone) return report_unknown_node(node, lamp);
             one.to_world = scene_.nodes[one.node].to_world;
+            one.motion = motion_of(one.node);
             added.push_back(one);
         }
     }
@@ -277,15 +278,27 @@ class LightChanges {
                    fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
     }
 
-    /// Notes lamps on nodes that move; whoever reads the file has told of those that they replace.
-    void note_moving(const std::vector<LampToAdd>& added) {
-        const auto count = std::ranges::count_if(added, [&](const LampToAdd& lamp) {
-            return !lamp.replaces && lamp.node != NodeDesc::kNone && scene_.nodes[lamp.node].moves;
-        });
+    /// Returns how a node moves; empty where it does not, or is flat at some time.
+    [[nodiscard]] TransformMotion motion_of(std::uint32_t node) const {
+        if (node == NodeDesc::kNone) return {};
+        const TransformMotion& motion = scene_.nodes[node].motion;
+        return std::ranges::all_of(motion, is_invertible) ? motion : TransformMotion();
+    }
+
+    /// Returns the steps of `motion` without their scale, of what is at `to_world` in the middle of it.
+    [[nodiscard]] static TransformMotion rigid_steps(TransformMotion motion, const Mat4f& to_world) {
+        for (Mat4f& step : motion) step = rigid_part(step).value_or(to_world);
+        return motion;
+    }
+
+    /// Notes suns on nodes that move, which do not turn with them.
+    void note_turning_suns(const std::vector<LampToAdd>& added) {
+        const auto count = std::ranges::count_if(
+            added, [](const LampToAdd& lamp) { return lamp.lamp->kind == LampKind::Sun && !lamp.motion.empty(); });
         if (count == 0) return;
         problems_.note({scene_.file.string(), "/animations"},
-                       fmt::format("{} lamps of \"lights\" are on nodes that move while the shutter is open; they are "
-                                   "taken to stand still where they are in the middle of it",
+                       fmt::format("{} suns of \"lights\" are on nodes that move while the shutter is open; they are "
+                                   "taken to shine as they do in the middle of it",
                                    count));
     }
 
@@ -312,6 +325,7 @@ class LightChanges {
                          .data_name = light.name,
                          .node = node,
                          .to_world = light.to_world,
+                         .motion = light.motion,
                          .color = light.color,
                          .visible_to_camera = softening.visible_to_camera,
                          .stops_light = softening.stops_light,
@@ -353,6 +367,7 @@ class LightChanges {
         light.outer_cone_angle = lamp.outer_cone_angle;
         light.angle = lamp.angle.value_or(0.0f);
         light.to_world = *rigid;
+        if (lamp.kind != LampKind::Sun) light.motion = rigid_steps(added.motion, *rigid);
         light.location = lamp.location;
         apply_strength(lamp, profile_of(lamp), scene_, light);
         if (const float radius = lamp.radius.value_or(0.0f); radius > 0.0f)
@@ -373,13 +388,14 @@ class LightChanges {
                          .data_name = *added.name,
                          .node = added.node,
                          .to_world = added.to_world,
+                         .motion = added.motion,
                          .color = change.color.value_or(Rgb(1.0f)),
                          .visible_to_camera = change.visible_to_camera.value_or(true),
                          .stops_light = change.stops_light.value_or(true),
                          .location = change.location};
         const double area = lamp.shape.area(lamp.to_world);
         lamp.radiance =
-            change.scale * (change.radiance ? *change.radiance : *change.power / (kPi * static_cast<float>(area)));
+            change.scale * change.radiance.value_or(change.power.value_or(0.0f) / (kPi * static_cast<float>(area)));
         if (change.spread < kPi) {
             lamp.beam.kind = BeamDesc::Kind::Panel;
             lamp.beam.spread = change.spread;

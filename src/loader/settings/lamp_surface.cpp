@@ -38,6 +38,7 @@ void add_surface_lamp(const SurfaceLamp& lamp, SceneDesc& scene) {
     instance.name = lamp.name;
     instance.mesh = {last(scene.meshes)};
     instance.to_world = lamp.to_world;
+    instance.motion = lamp.motion;
     instance.location = lamp.location;
     instance.node = lamp.node;
 }

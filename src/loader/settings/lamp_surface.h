@@ -15,9 +15,10 @@ struct SurfaceLamp {
     std::string name;                      ///< name of its instance
     std::string data_name;                 ///< name of its mesh and its material
     std::uint32_t node = NodeDesc::kNone;  ///< index into SceneDesc::nodes
-    Mat4f to_world{};
-    Rgb color{1.0f};        ///< linear Rec.709
-    float radiance = 0.0f;  ///< W/(m² sr), of a spot's beam that along the normal
+    Mat4f to_world{};                      ///< in the middle of the shutter
+    TransformMotion motion;                ///< while the shutter is open
+    Rgb color{1.0f};                       ///< linear Rec.709
+    float radiance = 0.0f;                 ///< W/(m² sr), of a spot's beam that along the normal
     BeamDesc beam{};
     bool visible_to_camera = true;
     /// Tells whether it stops other lamps' light; rays that go on through it take up its light on the way.

@@ -2,6 +2,7 @@
 
 #include "core/shown_text.h"
 #include "loader/json_text.h"
+#include "scene/transform.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -41,7 +42,7 @@ class ShapePlacer {
             material.index = static_cast<std::int32_t>(found - scene_.materials.begin());
         }
         if (change.place.position) {
-            add(name, change, material, placed(change.place, scene_.origin), NodeDesc::kNone);
+            add(name, change, material, {.to_world = placed(change.place, scene_.origin)});
             return;
         }
         const std::string& node = change.place.node.empty() ? name : change.place.node;
@@ -58,7 +59,11 @@ class ShapePlacer {
                           fmt::format("the scene has no node '{}'; {}", shown(node),
                                       name_hint(node, sorted_names(scene_.nodes))));
         if (replace_meshes(name, change, material, nodes)) return;
-        for (const std::uint32_t n : nodes) add(name, change, material, scene_.nodes[n].to_world, n);
+        for (const std::uint32_t n : nodes) {
+            const NodeDesc& at = scene_.nodes[n];
+            const bool is_flat = !std::ranges::all_of(at.motion, is_invertible);
+            add(name, change, material, {at.to_world, is_flat ? TransformMotion() : at.motion, n});
+        }
     }
 
   private:
@@ -105,17 +110,24 @@ class ShapePlacer {
         return !shape_of_mesh.empty();
     }
 
-    void add(const std::string& name, const ShapeChange& change, Handle<MaterialDesc> material, const Mat4f& to_world,
-             std::uint32_t node) {
+    /// A place where no mesh is.
+    struct FreePlace {
+        Mat4f to_world{};
+        TransformMotion motion{};
+        std::uint32_t node = NodeDesc::kNone;
+    };
+
+    void add(const std::string& name, const ShapeChange& change, Handle<MaterialDesc> material, FreePlace place) {
         if (!material)
             return problems_.error(change.location,
                                    "must have a \"material\", as there is no mesh whose place it takes");
         InstanceDesc instance;
         instance.name = name;
         instance.mesh = make_mesh(name, change, material, {});
-        instance.to_world = to_world;
+        instance.to_world = place.to_world;
+        instance.motion = std::move(place.motion);
         instance.location = change.location;
-        instance.node = node;
+        instance.node = place.node;
         scene_.instances.push_back(std::move(instance));
     }
 

@@ -19,6 +19,7 @@ struct PathLightEnd {
     Vec3f direction{0.0f};            ///< unit, towards the second vertex
     float cos_light = 1.0f;           ///< between the direction and the normal of a mesh light's front
     bool is_reached_directly = true;  ///< by an eye subpath, if that made the whole path
+    float time = 0.0f;                ///< when light leaves
 };
 
 /// Holds a vertex between the light and the lens, and how its subpath came to it and left it.

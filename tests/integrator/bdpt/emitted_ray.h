@@ -13,7 +13,8 @@ namespace etendue::test {
             .triangle = end.triangle,
             .point = at_infinity ? path.inner.front()->position : end.position,
             .direction = end.direction,
-            .cos_light = end.cos_light};
+            .cos_light = end.cos_light,
+            .time = end.time};
 }
 
 }  // namespace etendue::test

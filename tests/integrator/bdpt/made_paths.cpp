@@ -114,7 +114,11 @@ class PathsOfSample {
     /// Tells of the path from `end` over those of `inner` that are from the light, and back over those of `eye`.
     void tell(const PathLightEnd& end, Vertices inner, const Vertices& eye, std::size_t s, double weight) const {
         inner.insert(inner.end(), eye.rbegin(), eye.rend());
-        hear_({end, inner, s, view_of(eye.front()->position)}, weight);
+        hear_({timed(end), inner, s, view_of(eye.front()->position)}, weight);
+    }
+    [[nodiscard]] PathLightEnd timed(PathLightEnd end) const {
+        end.time = sample_.eye.ray.time;
+        return end;
     }
 
     void meet(const Arrived& arrived) const {
@@ -147,9 +151,11 @@ class PathsOfSample {
         const StrategyLight found = light_sampled(sample_, eye);
         if (is_black(found.light)) return;
         const auto draw = [&](SubpathDimension which) { return sample_.pair(SubpathEnd::AtEye, eye.index, which); };
-        const ChosenLight chosen = sample_.world().lights().sample(
-            eye.position, {draw(SubpathDimension::LightChoice), draw(SubpathDimension::LightTriangle),
-                           draw(SubpathDimension::LightDirection)});
+        const ChosenLight chosen =
+            sample_.world().lights().sample(eye.position,
+                                            {draw(SubpathDimension::LightChoice), draw(SubpathDimension::LightTriangle),
+                                             draw(SubpathDimension::LightDirection)},
+                                            sample_.eye.ray.time);
         const LightSample& light = chosen.sample;
         tell({.light = chosen.light,
               .triangle = light.triangle,
@@ -172,7 +178,7 @@ class PathsOfSample {
         if (!is_in_view(sample_.world(), job_, pixel)) return;
         const Vec2f lens = sample_.pair(SubpathEnd::AtLight, light.index, SubpathDimension::LightChoice);
         const CameraConnection camera = sample_.world().camera().connect(light.position, lens, sample_.eye.ray.time);
-        hear_({light_end_, light_.up_to(light), static_cast<std::size_t>(light.index) + 1, camera},
+        hear_({timed(light_end_), light_.up_to(light), static_cast<std::size_t>(light.index) + 1, camera},
               found->sums.weight());
     }
 

@@ -155,6 +155,7 @@ class GivenPath {
         const float pdf = world.emitters().pdf(emitted(), mis_.aims);
         Emission emission;
         emission.light = end.light;
+        emission.ray.time = end.time;
         emission.probability = world.emitters().probability(end.light);
         emission.sample.triangle = end.triangle;
         emission.sample.position = end.position;
@@ -167,7 +168,8 @@ class GivenPath {
                     world.environment().emission_pdf_solid_angle(end.light, -end.direction);
         } else {
             emission.sample.pdf_direction_solid_angle = pdf;
-            if (can_be_hit()) emission.sample.pdf_position_area = world.emitters().pdf_area(end.light, end.position);
+            if (can_be_hit())
+                emission.sample.pdf_position_area = world.emitters().pdf_area(end.light, end.position, end.time);
         }
         return emission;
     }
@@ -179,6 +181,7 @@ class GivenPath {
         ChosenLight chosen;
         chosen.expected_samples = world.lights().probability(position, end.light);
         chosen.light = end.light;
+        chosen.time = end.time;
         chosen.sample.wi = -end.direction;
         chosen.sample.cos_light = end.cos_light;
         chosen.sample.triangle = end.triangle;
@@ -191,10 +194,10 @@ class GivenPath {
         const float squared = length_squared(end.position - position);
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
-            chosen.sample.pdf_solid_angle = chosen.expected_samples *
-                                            world.emitters().pdf_area(end.light, end.position) *
-                                            world.lights().gain(end.light, end.triangle, end.position, position) *
-                                            squared / std::abs(end.cos_light);
+            chosen.sample.pdf_solid_angle =
+                chosen.expected_samples * world.emitters().pdf_area(end.light, end.position, end.time) *
+                world.lights().gain(end.light, end.triangle, end.position, position, end.time) * squared /
+                std::abs(end.cos_light);
         return chosen;
     }
 

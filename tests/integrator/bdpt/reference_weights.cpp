@@ -48,9 +48,10 @@ class Path {
         // What only one direction or one point is made of has no density but that of the choice.
         if (!world.lights().can_be_hit(end_.light)) return chosen;
         if (!at_infinity_) {
-            const float gain =
-                s == 1 ? world.lights().gain(end_.light, end_.triangle, end_.position, inner_.front()->position) : 1.0f;
-            return chosen * static_cast<double>(world.emitters().pdf_area(end_.light, end_.position) * gain);
+            const float gain = s == 1 ? world.lights().gain(end_.light, end_.triangle, end_.position,
+                                                            inner_.front()->position, end_.time)
+                                      : 1.0f;
+            return chosen * static_cast<double>(world.emitters().pdf_area(end_.light, end_.position, end_.time) * gain);
         }
         return chosen *
                static_cast<double>(s == 1 ? world.environment().pdf_solid_angle(end_.light, -end_.direction)

@@ -1,7 +1,9 @@
 // What moves while the shutter is open.
 #include "loader/gltf/gltf_builder.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -39,17 +41,38 @@ Vec3f origin_after(const Mat4f& m) {
     return transform_point(m, Vec3f(0.0f));
 }
 
-TEST(GltfMotion, LampsOfRenderJsonStandStillOnNodesThatMove) {
+TEST(GltfMotion, WhatRenderJsonPutsOnNodesMovesWithThem) {
     const TempDir dir;
     GltfBuilder builder = sliding();
     builder.json["nodes"][0]["name"] = "Mover";
-    builder.write(dir);
+    builder.json["nodes"].push_back({{"name", "Hook"}, {"translation", {0, 1, 0}}});
+    builder.json["nodes"][0]["children"].push_back(builder.json["nodes"].size() - 1);
     dir.write("render.json", R"({"lights": {
         "Ball": {"type": "sphere", "node": "Mover", "radius": 0.1, "power": 1},
-        "Disk": {"type": "disk", "node": "Mover", "power": 1},
-        "Still": {"type": "sphere", "position": [0, 9, 0], "power": 1}}})");
+        "Bulb": {"type": "point", "node": "Mover", "power": 1},
+        "Glow": {"type": "spot", "node": "Mover", "radius": 0.1, "power": 1},
+        "Day": {"type": "sun", "node": "Mover", "irradiance": 1},
+        "Still": {"type": "sphere", "position": [0, 9, 0], "power": 1}},
+        "shapes": {"Pearl": {"type": "sphere", "node": "Hook", "radius": 0.2, "material": "white"}}})");
+    builder.json["materials"] = {{{"name", "white"}}};
+    builder.write(dir);
     const LoadedScene loaded = inspect_scene(dir.path(), shutter(0.5, 0.0, 0.25));
-    EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "2 lamps of \"lights\" are on nodes that move"))
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const auto instance = [&](std::string_view mesh) -> const InstanceDesc& {
+        return *std::ranges::find_if(loaded.scene.instances, [&](const InstanceDesc& placed) {
+            return loaded.scene.meshes.at(static_cast<std::size_t>(placed.mesh.index)).name == mesh;
+        });
+    };
+    for (const std::string_view name : {"Ball", "Glow", "Pearl"}) {
+        const TransformMotion& motion = instance(name).motion;
+        ASSERT_EQ(motion.size(), 2u) << name;
+        EXPECT_EQ(origin_after(motion[0]).x, 2.0f) << name;
+        EXPECT_EQ(origin_after(motion[1]).x, 3.0f) << name;
+    }
+    EXPECT_TRUE(instance("Still").motion.empty());
+    for (const LightDesc& light : loaded.scene.lights)
+        EXPECT_EQ(light.motion.size(), light.type == LightType::Directional ? 0u : 2u) << light.name;
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "1 suns of \"lights\" are on nodes that move"))
         << listing(loaded.problems);
     EXPECT_FALSE(has_problem(inspect_scene(dir.path()).problems, Severity::Note, "on nodes that move"));
 }
@@ -66,7 +89,13 @@ TEST(GltfMotion, StraightMotionHasTwoSteps) {
     ASSERT_EQ(loaded.scene.cameras.at(0).motion.size(), 2u) << "it hangs on the node";
     EXPECT_EQ(origin_after(loaded.scene.cameras[0].motion[1]), Vec3f(3, 0, 0));
     EXPECT_EQ(origin_after(loaded.scene.lights.at(0).to_world), Vec3f(2.5f, 0, 0));
-    EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "1 punctual lights move"));
+    ASSERT_EQ(loaded.scene.lights[0].motion.size(), 2u);
+    EXPECT_EQ(origin_after(loaded.scene.lights[0].motion[1]), Vec3f(3, 0, 0));
+    GltfBuilder sun = sliding();
+    sun.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "directional";
+    const LoadedScene turning = sun.load(shutter(0.5, 0.0, 0.25));
+    EXPECT_TRUE(has_problem(turning.problems, Severity::Note, "1 directional lights turn"));
+    EXPECT_TRUE(turning.scene.lights.at(0).motion.empty());
 }
 
 // It grows from nothing at 0 s to its full size at 1 s.

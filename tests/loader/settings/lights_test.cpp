@@ -219,6 +219,9 @@ TEST(Lamps, WhatTheyCannotBeIsSaid) {
     expect(R"({"sun": {"radius": 1}})", "no radius", "/lights/sun/radius");
     expect(R"({"sun": {"power": 1}})", "no power", "/lights/sun/power");
     expect(R"({"sun": {"visible_to_camera": false}})", "never seen", "/lights/sun/visible_to_camera");
+    expect(R"({"a": {"type": "sphere", "position": [0, 0, 0]}})", "must have a \"power\" or a \"radiance\"",
+           "/lights/a");
+    expect(R"({"Area": {"type": "rectangle", "angle": "wide"}})", "angle", "/lights/Area/angle");
     expect(R"({"Area": {"type": "dsik", "power": 1}})", "did you mean 'disk'", "/lights/Area/type");
 }
 
