@@ -99,8 +99,9 @@ TEST(World, OneSidedEmittersAreDarkBehind) {
             const bool lit = two_sided || side > 0.0f;
             EXPECT_EQ(world.materials().emission(world.geometry().surface_point(hit), {0, 0, side}),
                       lit ? Rgb(5.0f) : Rgb(0.0f));
-            EXPECT_EQ(is_black(world.lights().sample(from, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.6f}}, 0.0f).sample.radiance),
-                      !lit);
+            EXPECT_EQ(
+                is_black(world.lights().sample(from, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.6f}}, 0.0f).sample.radiance),
+                !lit);
         }
     }
 }
