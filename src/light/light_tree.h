@@ -33,7 +33,7 @@ class LightTree {
     LightTree() = default;
     /// `scene_radius` in metres, for the power of lights at infinity. n log n steps.
     LightTree(std::span<const Light> lights, float scene_radius);
-    /// Builds the tree of lights that are within `bounds`, as `light_bounds` says of each or wider.
+    /// Builds the tree of lights with these bounds, each at least those of `light_bounds`.
     LightTree(std::span<const Light> lights, std::span<const std::optional<LightBounds>> bounds, float scene_radius);
 
     struct Choice {

@@ -50,8 +50,7 @@ Light compile_punctual(const LightDesc& desc, const Mat4f& to_world,
     return light;
 }
 
-/// Returns where `instance` is in the middle of the shutter, as those say who go from one step of its motion to the
-/// next.
+/// Returns where `instance` is in the middle of the shutter, between the steps of its motion.
 Mat4f middle_of(const WorldData& data, const Instance& instance) {
     return instance.motion == kNone ? instance.to_world : transform_at(data.motions[instance.motion], kMidShutter);
 }

@@ -34,26 +34,26 @@ double turn(const Mat4f& m) {
 }  // namespace
 
 LightPose::LightPose(const TransformMotion& motion, float time)
-    : out_(transform_at(motion, time)), in_(out_.inverse()) {}
+    : to_world_(transform_at(motion, time)), to_frame_(to_world_.inverse()) {}
 
-void LightPose::take_out(LightSample& sample, const Vec3f& point) const {
-    const Vec3f on_light = transform_point(out_, point_in(point) + sample.wi * sample.distance);
+void LightPose::to_world(LightSample& sample, const Vec3f& point) const {
+    const Vec3f on_light = transform_point(to_world_, point_in_frame(point) + sample.wi * sample.distance);
     const Vec3f to_light = on_light - point;
     sample.distance = length(to_light);
     sample.wi = to_light * (1.0f / sample.distance);
-    sample.end = transform_point(out_, sample.end);
+    sample.end = transform_point(to_world_, sample.end);
 }
 
-void LightPose::take_out(EmissionSample& sample) const {
-    sample.position = transform_point(out_, sample.position);
-    sample.offset = transform_vector(out_, sample.offset);
-    sample.direction = normalize(transform_vector(out_, sample.direction));
+void LightPose::to_world(EmissionSample& sample) const {
+    sample.position = transform_point(to_world_, sample.position);
+    sample.offset = transform_vector(to_world_, sample.offset);
+    sample.direction = normalize(transform_vector(to_world_, sample.direction));
 }
 
 std::optional<TransformMotion> rigid_motion(const TransformMotion& motion) {
-    const Mat4f to_middle = transform_at(motion, kMidShutter).inverse();
+    const Mat4f to_frame = transform_at(motion, kMidShutter).inverse();
     TransformMotion relative;
-    for (const Mat4f& step : motion) relative.push_back(to_middle * step);
+    for (const Mat4f& step : motion) relative.push_back(to_frame * step);
     for (std::size_t i = 0; i < relative.size(); ++i) {
         // Turns are cut short most in the middle between two steps.
         const bool is_last = i + 1 == relative.size();

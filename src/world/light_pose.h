@@ -1,7 +1,8 @@
 // Where a light that moves is at a time of the shutter.
 //
-// `WorldData::lights` has it where it is in the middle. Points that ask about it are taken to where it then sees them
-// from there, and what it answers is taken back: this turns and shifts, and changes no density.
+// `WorldData::lights` knows no time: it has each light where it is in the middle of the shutter. That is the light's
+// frame. What asks about a light at another time asks in this frame, and takes the answer back to the world. From one
+// to the other lead turns and shifts, which change no density.
 #pragma once
 
 #include "core/vec.h"
@@ -16,26 +17,26 @@
 
 namespace etendue {
 
-/// Takes a light from where it is in the middle of the shutter to where it is at a time, and back.
+/// Leads from the frame of a light to the world at one time, and back.
 class LightPose {
   public:
-    /// Takes the pose at `time`, in [0, 1], of a light that moves by `motion`.
+    /// Makes the pose at `time`, in [0, 1], of a light with this `rigid_motion`.
     LightPose(const TransformMotion& motion, float time);
 
-    /// Returns where `point` is seen from the light as it is in the middle.
-    [[nodiscard]] Vec3f point_in(const Vec3f& point) const { return transform_point(in_, point); }
-    /// Returns the unit `direction` as the light has it in the middle.
-    [[nodiscard]] Vec3f direction_in(const Vec3f& direction) const {
-        return normalize(transform_vector(in_, direction));
+    /// Returns the `point` of the world in the light's frame.
+    [[nodiscard]] Vec3f point_in_frame(const Vec3f& point) const { return transform_point(to_frame_, point); }
+    /// Returns the unit `direction` of the world in the light's frame.
+    [[nodiscard]] Vec3f direction_in_frame(const Vec3f& direction) const {
+        return normalize(transform_vector(to_frame_, direction));
     }
-    /// Takes out `sample`, of light at `point_in(point)`.
-    void take_out(LightSample& sample, const Vec3f& point) const;
-    /// Takes out the beginning of a ray that leaves the light.
-    void take_out(EmissionSample& sample) const;
+    /// Takes to the world a sample of the light that arrives at `point` of the world.
+    void to_world(LightSample& sample, const Vec3f& point) const;
+    /// Takes to the world the beginning of a ray that leaves the light.
+    void to_world(EmissionSample& sample) const;
 
   private:
-    Mat4f out_;
-    Mat4f in_;
+    Mat4f to_world_;
+    Mat4f to_frame_;
 };
 
 /// Returns the pose of the light of this index at `time`; none if it stands still.
@@ -44,8 +45,8 @@ class LightPose {
     return motion != nullptr ? std::optional<LightPose>(std::in_place, *motion, time) : std::nullopt;
 }
 
-/// Returns the motion relative to the place in the middle of the shutter of what is at `motion`, with at least two
-/// steps; none unless it turns and shifts alone, within 0.2%.
+/// Returns the steps from where something is in the middle of the shutter to where it is at each of the steps of
+/// `motion`, at least two. None if these do more than turn and shift, within 0.2%.
 [[nodiscard]] std::optional<TransformMotion> rigid_motion(const TransformMotion& motion);
 
 /// Returns where the light of this index is and where it shines while the shutter is open; none at infinity.

@@ -18,10 +18,10 @@ std::vector<std::optional<LightBounds>> bounds_of_lights(const WorldData& data) 
     return bounds;
 }
 
-/// Returns where the light of this index sees `point` in the middle of the shutter as it does at `time`.
-Vec3f point_in_light(const WorldData& data, std::uint32_t light, const Vec3f& point, float time) {
+/// Returns `point` in the frame that the light of this index has at `time`.
+Vec3f point_in_frame_of(const WorldData& data, std::uint32_t light, const Vec3f& point, float time) {
     const auto pose = pose_of_light(data, light, time);
-    return pose ? pose->point_in(point) : point;
+    return pose ? pose->point_in_frame(point) : point;
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ LightSampler::LightSampler(const WorldData& data, const Materials& materials)
 ChosenLight LightSampler::sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u,
                                  float time) const {
     const auto pose = pose_of_light(data_, choice.light, time);
-    ChosenLight chosen{sample_light_compensated(data_.lights[choice.light], pose ? pose->point_in(point) : point,
+    ChosenLight chosen{sample_light_compensated(data_.lights[choice.light], pose ? pose->point_in_frame(point) : point,
                                                 u.triangle, u.direction),
                        choice.probability, choice.light, time};
     LightSample& sample = chosen.sample;
@@ -42,7 +42,7 @@ ChosenLight LightSampler::sample(const LightTree::Choice& choice, const Vec3f& p
     if (!is_black(sample.radiance) && has_uneven_emission(data_, choice.light))
         sample.radiance =
             mesh_emission(data_, materials_, choice.light, sample.triangle, sample.barycentric, -sample.wi);
-    if (pose) pose->take_out(sample, point);
+    if (pose) pose->to_world(sample, point);
     return chosen;
 }
 
@@ -64,7 +64,7 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
     const float choice = probability(from, light);
     // Where no light needs it, `from` may mean nothing.
     const auto seen_from = [&](const auto& surface) {
-        return point_in_light(
+        return point_in_frame_of(
             data_, light, surface.needs_exact_point() ? from.position : point.position - direction * distance, time);
     };
     return of_surface_light(
@@ -74,14 +74,14 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
                    },
                    [&](const ShapeLight& shape) {
                        return shape.pdf_solid_angle(seen_from(shape),
-                                                    point_in_light(data_, light, point.position, time), cos_light) *
+                                                    point_in_frame_of(data_, light, point.position, time), cos_light) *
                               choice;
                    }});
 }
 
 float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point,
                          float time) const {
-    const auto in = [&](const Vec3f& place) { return point_in_light(data_, light, place, time); };
+    const auto in = [&](const Vec3f& place) { return point_in_frame_of(data_, light, place, time); };
     return of_surface_light(
         data_.lights[light], 1.0f,
         Overloaded{[&](const MeshLight& mesh) { return mesh.gain(triangle, in(on_light), in(point)); },

@@ -37,7 +37,7 @@ bool has_uneven_emission(const WorldData& data, std::uint32_t light) {
 
 Rgb mesh_emission(const WorldData& data, const Materials& materials, std::uint32_t light, std::uint32_t triangle,
                   Vec2f barycentric, const Vec3f& direction) {
-    // Lights are what they are in the middle of the shutter.
+    // The direction is in the light's frame, that of the middle of the shutter.
     const Emitter& emitter = data.emitter_of_light[light];
     const SurfacePoint point =
         make_surface_point(data, emitter.instance, emitter.geometry, triangle, barycentric, kMidShutter, ConeSection{});

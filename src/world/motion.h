@@ -10,7 +10,7 @@
 
 namespace etendue {
 
-/// Is the time at which everything is that has one place: lights, bodies, what is asked about the whole shutter.
+/// Is the time at which things are that are given a single place: lights, and what asks about the whole shutter.
 inline constexpr float kMidShutter = 0.5f;
 
 /// Between which two of some equally spaced steps a time lies.
