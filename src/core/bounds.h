@@ -27,6 +27,17 @@ struct Bounds {
     }
 };
 
+/// Returns bounds of the box `bounds` that `m` places; empty if `bounds` are.
+[[nodiscard]] inline Bounds placed(const Bounds& bounds, const Mat4f& m) {
+    Bounds result;
+    if (bounds.empty()) return result;
+    for (int corner = 0; corner < 8; ++corner)
+        result.extend(transform_point(
+            m, {(corner & 1) != 0 ? bounds.max.x : bounds.min.x, (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                (corner & 4) != 0 ? bounds.max.z : bounds.min.z}));
+    return result;
+}
+
 /// True if `a` and `b` have a point in common.
 [[nodiscard]] inline bool overlap(const Bounds& a, const Bounds& b) {
     return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y && a.min.z <= b.max.z &&

@@ -13,9 +13,8 @@ std::vector<std::string> WhittedIntegrator::unreachable_light(const World& world
         sentences.emplace_back("light that scatters within bodies is left out; 'path' finds it");
     if (world.traits().has_unsampled_emitters)
         sentences.emplace_back(
-            "surfaces that glow and are not sampled, because they deform, grow or turn fast while the shutter is open "
-            "or are too many, are "
-            "seen but light no surface; 'path' finds that light");
+            "surfaces that glow and are not sampled (a note says why) are seen but light no surface; 'path' finds that "
+            "light");
     return sentences;
 }
 

@@ -19,7 +19,7 @@ struct NormalsIntegrator final : ScalarIntegrator {
     [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
 };
 
-/// Shows, for debugging, the share of light that surfaces scatter in place of light, seen from the eye.
+/// Shows, for debugging, albedo in place of light: the share of light that the surface seen from the eye scatters.
 struct AlbedoIntegrator final : ScalarIntegrator {
     explicit AlbedoIntegrator(const IntegratorSettings& settings) : ScalarIntegrator(settings, Shows::NoLight) {}
     [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;

@@ -19,7 +19,7 @@ struct alignas(64) LightReceiver {
     LightReceiver() = default;
     /// Nothing but a point.
     LightReceiver(const Vec3f& point) : position(point) {}  // NOLINT(google-explicit-constructor): the most common
-    /// Makes the receiver that is a diffuse surface.
+    /// Makes a receiver on a diffuse surface at `point` with the unit normal `facing`.
     LightReceiver(const Vec3f& point, const Vec3f& facing) : position(point), normal(facing) {}
 
     [[nodiscard]] bool has_normal() const { return normal != Vec3f(0.0f); }

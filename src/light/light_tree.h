@@ -33,7 +33,8 @@ class LightTree {
     LightTree() = default;
     /// `scene_radius` in metres, for the power of lights at infinity. n log n steps.
     LightTree(std::span<const Light> lights, float scene_radius);
-    /// Builds the tree of lights with these bounds, each at least those of `light_bounds`.
+    /// Builds the tree with given bounds for each light, which must contain its `light_bounds`: a light that moves
+    /// needs larger ones.
     LightTree(std::span<const Light> lights, std::span<const std::optional<LightBounds>> bounds, float scene_radius);
 
     struct Choice {

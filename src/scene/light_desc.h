@@ -57,7 +57,8 @@ struct LightDesc {
     float outer_cone_angle = 0.785398163f;  ///< spot: radians from the axis to where light ends, [inner, pi/2], > 0
     float angle = 0.0f;                     ///< directional: radians under which the disk of the sun is seen, [0, pi)
     Mat4f to_world;                         ///< in the middle of the shutter
-    std::vector<Mat4f> motion{};  ///< at equally spaced times from its opening to its closing; empty if it stands still
+    /// Holds `to_world` at equally spaced times while the shutter is open; empty if the light stands still.
+    std::vector<Mat4f> motion{};
     SourceLocation location;
 };
 

@@ -114,8 +114,8 @@ inline constexpr std::array kTransportSettings{
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,
             .decides = Decides::Samples,
-            .help = "Where `vcm` merges. `sds`: where both subpaths have come by a mirror or smooth glass. `all`: at "
-                    "every vertex. `none`: nowhere, so that it is `bdpt`",
+            .help = "Where `vcm` merges. `sds`: where both subpaths arrive by way of a mirror or smooth glass. `all`: "
+                    "at every vertex. `none`: nowhere, so that `vcm` is `bdpt`",
             .page = "integrators.md#vcm",
             .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merging.at; })},
     Setting{.pointer = "/integrator/merge_radius",
@@ -129,8 +129,8 @@ inline constexpr std::array kTransportSettings{
     Setting{.pointer = "/integrator/merge_alpha",
             .type = RealNumber{{.min = 0.1, .max = 1.0}},
             .decides = Decides::Samples,
-            .help = "How slowly the merge radius of `vcm` shrinks: it is proportional to the number of samples to the "
-                    "power (merge_alpha - 1) / 2. With 1, the radius and its blur stay",
+            .help = "How slowly the merge radius of `vcm` shrinks: the radius is proportional to the number of samples "
+                    "to the power (merge_alpha - 1) / 2. With 1, the radius and its blur stay the same",
             .page = "integrators.md#vcm",
             .place = at([](auto& s) -> auto& { return s.integrator.merging.alpha; })},
 };

@@ -1,6 +1,7 @@
 #include "transport/merge_radius.h"
 
 #include "transport/scattered_cone.h"
+#include "world/motion.h"
 #include "world/world.h"
 
 namespace etendue {
@@ -13,7 +14,7 @@ Merging make_merging(const World& world, int width, int height, double light_pat
     constexpr float kLeast = 1e-12f;
     constexpr float kMost = 0.02f;
     constexpr Vec2f kMiddle{0.5f, 0.5f};
-    const Ray ray = world.camera().generate_ray(kMiddle, kMiddle, 0.5f);
+    const Ray ray = world.camera().generate_ray(kMiddle, kMiddle, kMidShutter);
     MergeRadius radius{.eye = ray.origin, .pixel = camera_cone(world, width, height, ray)};
     const double shrunk = std::pow(static_cast<double>(sample) + 1.0, 0.5 * (options.alpha - 1.0));
     radius.scale =

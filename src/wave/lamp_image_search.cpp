@@ -3,6 +3,7 @@
 #include "sampling/hash.h"
 #include "transport/roulette.h"
 #include "wave/lamps_by_deltas.h"
+#include "world/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +116,7 @@ class ImageFinder {
         for (std::size_t i = 0; i < count; ++i) film_[i] = on_film(whole_, points_[i]);
         rays_.resize(count);
         hits_.assign(count, {});
-        world_.camera().generate_rays(film_, std::vector(count, Vec2f(0.5f)), std::vector(count, 0.5f), rays_);
+        world_.camera().generate_rays(film_, std::vector(count, Vec2f(0.5f)), std::vector(count, kMidShutter), rays_);
         world_.geometry().intersect(rays_, hits_, Coherence::Coherent, QueryForm::Best, RayEnds::AtCamera);
         ways_.assign(count, 0);
         for (std::size_t i = 0; i < count; ++i)
@@ -208,7 +209,7 @@ class ImageFinder {
     void find_ends(const Vec2f& film, std::vector<DeltaEnd>& ends) {
         ends.clear();
         EndCollector collector{ends};
-        const Ray ray = world_.camera().generate_ray(on_film(whole_, film), Vec2f(0.5f, 0.5f), 0.5f);
+        const Ray ray = world_.camera().generate_ray(on_film(whole_, film), Vec2f(0.5f, 0.5f), kMidShutter);
         DeltaBranch branch = branch_along(world_, whole_, ray, {whole_.seed, 0}, nullptr);
         branch.path.throughput = Rgb(kSmallestContribution / kLeastThroughput);
         follow_deltas(world_, branch, EndCollector::NoState{}, kMostEdges, collector);

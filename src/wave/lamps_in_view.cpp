@@ -6,6 +6,7 @@
 #include "wave/one_kind_tracer.h"
 #include "wave/profile/wave_profile.h"
 #include "wave/ray_batch.h"
+#include "world/motion.h"
 
 #include <algorithm>
 #include <array>
@@ -238,7 +239,7 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
     for (const Vec2i& pixel : positions_)
         film_.push_back(on_film(*job_, {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f}));
     const std::vector<Vec2f> lens(count, Vec2f(0.5f, 0.5f));
-    const std::vector<float> times(count, 0.5f);
+    const std::vector<float> times(count, kMidShutter);
     rays_.assign(count, {});
     hits_.resize(count);
     world_->camera().generate_rays(film_, lens, times, rays_);

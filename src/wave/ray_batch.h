@@ -76,9 +76,9 @@ void occluded_batch(const World& world, const TileJob& job, RayKind kind, const 
 [[nodiscard]] std::uint8_t occluded_one(const World& world, const TileJob& job, RayKind kind, const Ray& ray,
                                         RenderCounters& counters);
 
-/// Returns the hit that the camera shows along `ray`, which has passed clear surfaces at most and has met `hit`: the
-/// nearest that is not hidden from the camera, or none if that lies too far away. If another ray is traced for it, this
-/// ray counts for the sample in `slot` of `light`.
+/// Returns the hit that the camera sees along `ray`, which has passed only clear surfaces, if any, and has met `hit`:
+/// the nearest that is not hidden from the camera, or none if it lies beyond the camera's clipping distance. If another
+/// ray is traced for that, it counts for the sample in `slot` of `light`.
 [[nodiscard]] inline Hit hit_seen_by_camera(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
                                             std::uint32_t slot, SampleLight& light, RenderCounters& counters) {
     Hit shown = hit;

@@ -49,13 +49,7 @@ Filling compile_subsurface(const SubsurfaceDesc& desc, const ColorMatrix& from_r
 
 /// Bounds where an instance places a geometry whose own bounds are `local`.
 Bounds placed(const Bounds& local, const Instance& instance) {
-    if (instance.baked || local.empty()) return local;
-    Bounds world;
-    for (int corner = 0; corner < 8; ++corner)
-        world.extend(transform_point(instance.to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
-                                                         (corner & 2) != 0 ? local.max.y : local.min.y,
-                                                         (corner & 4) != 0 ? local.max.z : local.min.z}));
-    return world;
+    return instance.baked ? local : placed(local, instance.to_world);
 }
 
 /// The boundary of a filling in one instance, which may be of several geometries, before it has its number.

@@ -195,11 +195,7 @@ void extend_bounds(const Instance& instance, std::span<const Mat4f> transforms, 
             world.extend(local);
             continue;
         }
-        for (const Mat4f& to_world : transforms)
-            for (int corner = 0; corner < 8; ++corner)
-                world.extend(transform_point(to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
-                                                        (corner & 2) != 0 ? local.max.y : local.min.y,
-                                                        (corner & 4) != 0 ? local.max.z : local.min.z}));
+        for (const Mat4f& to_world : transforms) world.extend(placed(local, to_world));
     }
 }
 

@@ -25,6 +25,24 @@ std::vector<std::shared_ptr<const IesProfile>> compile_profiles(const SceneDesc&
     return profiles;
 }
 
+/// Returns the steps by which a light without a surface moves, as far as that changes its light; empty if it stands
+/// still. None if it moves and cannot: suns have no place and no direction but one, and others have to be rigid.
+std::optional<TransformMotion> motion_of_punctual(const LightDesc& desc) {
+    TransformMotion motion = desc.motion;
+    if (desc.type == LightType::Directional) {
+        const auto axis = [](const Mat4f& m) { return Vec3f(m[2][0], m[2][1], m[2][2]); };
+        const bool turns = std::ranges::any_of(motion, [&](const Mat4f& m) { return axis(m) != axis(motion.front()); });
+        return turns ? std::nullopt : std::optional<TransformMotion>(std::in_place);
+    }
+    // A point looks alike from everywhere.
+    if (desc.type == LightType::Point && !desc.profile)
+        for (Mat4f& step : motion)
+            for (int r = 0; r < 3; ++r)
+                for (int c = 0; c < 3; ++c) step[r][c] = r == c ? 1.0f : 0.0f;
+    if (!motion.empty() && !rigid_motion(motion)) return std::nullopt;
+    return motion;
+}
+
 /// `scale` turns the units of lamps into those of the image.
 Light compile_punctual(const LightDesc& desc, const Mat4f& to_world,
                        std::span<const std::shared_ptr<const IesProfile>> profiles, float scale,
@@ -50,9 +68,9 @@ Light compile_punctual(const LightDesc& desc, const Mat4f& to_world,
     return light;
 }
 
-/// Returns where `instance` is in the middle of the shutter, between the steps of its motion.
-Mat4f middle_of(const WorldData& data, const Instance& instance) {
-    return instance.motion == kNone ? instance.to_world : transform_at(data.motions[instance.motion], kMidShutter);
+/// Returns the frame of a light of `instance` (world/light_pose.h).
+Mat4f frame_of_lamp(const WorldData& data, const Instance& instance) {
+    return instance.motion == kNone ? instance.to_world : frame_of(data.motions[instance.motion]);
 }
 
 std::vector<LightTriangle> world_triangles(const Geometry& geometry, const Instance& instance, const Mat4f& to_world) {
@@ -90,7 +108,7 @@ Rgb mean_emission(const WorldData& data, const Material& material) {
 /// Counts the emitting surfaces and triangles that are found by chance only, and why.
 struct UnsampledEmitters {
     std::size_t skipped = 0;  ///< triangles beyond the limit
-    std::size_t moving = 0;   ///< what deforms, or does more than turn and shift
+    std::size_t moving = 0;   ///< surfaces that deform, change their size or turn fast
     std::size_t uneven = 0;   ///< elliptic cylinders
 };
 
@@ -106,7 +124,7 @@ bool add_surface_light(std::size_t i, std::uint32_t index, std::uint32_t slot, W
     // Rays from it and to it pass what touches it.
     const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
     const Vec3f error = max_components(mesh_position_error(data, geometry, instance), Vec3f(reach));
-    const Mat4f to_world = middle_of(data, instance);
+    const Mat4f to_world = frame_of_lamp(data, instance);
     const auto light_number = static_cast<std::uint32_t>(data.lights.size());
     if (geometry.shape) {
         const ExactShape shape = geometry.shape->placed(to_world);
@@ -124,8 +142,8 @@ bool add_surface_light(std::size_t i, std::uint32_t index, std::uint32_t slot, W
     return true;
 }
 
-/// Says that the last light moves.
-void set_motion(TransformMotion motion, WorldData& data) {
+/// Gives the last light of `data` its motion, made by `rigid_motion`.
+void set_motion_of_last_light(TransformMotion motion, WorldData& data) {
     data.motion_of_light.resize(data.lights.size());
     data.motion_of_light.back() = std::move(motion);
 }
@@ -167,7 +185,7 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
             triangle_count += geometry.triangles.size();
             const std::size_t before = data.lights.size();
             if (!add_surface_light(i, index, instance.first_light_slot + g, data)) ++unsampled.uneven;
-            if (motion && data.lights.size() > before) set_motion(std::move(*motion), data);
+            if (motion && data.lights.size() > before) set_motion_of_last_light(std::move(*motion), data);
         }
     }
     data.has_unsampled_emitters = unsampled.moving > 0 || unsampled.skipped > 0 || unsampled.uneven > 0;
@@ -180,16 +198,22 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
                     std::size_t most_triangles) {
     const auto profiles = compile_profiles(scene);
     const float scale = scene.settings.light_units == LightUnits::Radiometric ? 1.0f / kLumensPerWatt : 1.0f;
+    std::size_t still = 0;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& desc = scene.lights[i];
         if (!(desc.intensity > 0.0f) || !(max_component(desc.color) > 0.0f)) continue;
-        std::optional<TransformMotion> motion;
-        if (!desc.motion.empty()) motion = rigid_motion(desc.motion);
-        data.lights.push_back(compile_punctual(desc, motion ? transform_at(desc.motion, kMidShutter) : desc.to_world,
-                                               profiles, scale, data.from_rec709));
-        if (motion) set_motion(std::move(*motion), data);
+        const std::optional<TransformMotion> motion = motion_of_punctual(desc);
+        if (!motion) ++still;
+        const bool moves = motion && !motion->empty();
+        data.lights.push_back(
+            compile_punctual(desc, moves ? frame_of(*motion) : desc.to_world, profiles, scale, data.from_rec709));
+        if (moves) set_motion_of_last_light(*rigid_motion(*motion), data);
         data.emitter_of_light.push_back({.lamp = static_cast<std::uint32_t>(i)});
     }
+    if (still > 0)
+        problems.note({}, std::to_string(still) +
+                              " suns that turn, or spots that turn fast, while the shutter is open keep the place and "
+                              "the direction that they have in the middle of that time");
     compile_mesh_lights(most_triangles, data, problems);
     if (scene.environment.enabled) {
         data.environment = static_cast<std::uint32_t>(data.lights.size());

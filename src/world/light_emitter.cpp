@@ -86,10 +86,10 @@ Emission LightEmitter::sample(Vec2f u_light, EmissionNumbers u, float time, bool
     if (aims && !aim_.empty()) aim_emission(aim_, light, data_.bounding_sphere(), u, sample);
     emission.ray.time = time;
     if (is_black(sample.radiance)) return emission;
+    if (const auto pose = pose_of_light(data_, choice.index, time)) pose->to_world(sample);
     if (has_uneven_emission(data_, choice.index))
         sample.radiance =
-            mesh_emission(data_, materials_, choice.index, sample.triangle, sample.barycentric, sample.direction);
-    if (const auto pose = pose_of_light(data_, choice.index, time)) pose->to_world(sample);
+            mesh_emission(data_, materials_, choice.index, sample.triangle, sample.barycentric, sample.direction, time);
     emission.weight = sample.weight() / choice.probability;
     emission.ray.origin = origin(emission, sample.direction);
     emission.ray.direction = sample.direction;
@@ -111,10 +111,9 @@ SurfaceEmission LightEmitter::surface_emission(const Emission& emission, const V
                    [&](const ShapeLight& shape) {
                        return shape.shape().point(shape_place(sample.triangle, sample.barycentric)).normal;
                    }});
-    const auto pose = pose_of_light(data_, emission.light, emission.ray.time);
-    const Vec3f leaving = pose ? pose->direction_in_frame(direction) : direction;
-    return {mesh_emission(data_, materials_, emission.light, sample.triangle, sample.barycentric, leaving),
-            abs_dot(normal, leaving)};
+    const float time = emission.ray.time;
+    return {mesh_emission(data_, materials_, emission.light, sample.triangle, sample.barycentric, direction, time),
+            abs_dot(normal, direction_in_frame(pose_of_light(data_, emission.light, time), direction))};
 }
 
 Vec3f LightEmitter::origin(const Emission& emission, const Vec3f& direction) const {
@@ -131,20 +130,20 @@ Interior LightEmitter::interior(const Emission& emission, const Vec3f& direction
 float LightEmitter::pdf(const EmittedRay& ray, bool aims) const {
     const Light& light = data_.lights[ray.light];
     const auto pose = pose_of_light(data_, ray.light, ray.time);
-    const Vec3f direction = pose ? pose->direction_in_frame(ray.direction) : ray.direction;
+    const Vec3f direction = direction_in_frame(pose, ray.direction);
     const float own = emission_pdf(light, direction, ray.cos_light, data_.bounding_sphere());
     if (!aims || aim_.empty()) return own;
-    const Vec3f point = pose ? pose->point_in_frame(ray.point) : ray.point;
+    const Vec3f point = in_frame(pose, ray.point);
     const auto cone = light_cone(light, ray.triangle);
     return cone ? aim_.pdf_solid_angle(point, *cone, direction, own) : aim_.pdf_area(point, direction, own);
 }
 
 float LightEmitter::pdf_area(std::uint32_t light, const Vec3f& on_light, float time) const {
-    const auto pose = pose_of_light(data_, light, time);
-    const Vec3f point = pose ? pose->point_in_frame(on_light) : on_light;
     return of_surface_light(data_.lights[light], 0.0f,
                             Overloaded{[&](const MeshLight& mesh) { return 1.0f / mesh.area(); },
-                                       [&](const ShapeLight& shape) { return shape.pdf_area(point); }});
+                                       [&](const ShapeLight& shape) {
+                                           return shape.pdf_area(in_frame(pose_of_light(data_, light, time), on_light));
+                                       }});
 }
 
 }  // namespace etendue

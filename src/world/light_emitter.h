@@ -31,7 +31,7 @@ struct EmittedRay {
     Vec3f point{0.0f};           ///< where it leaves the light; for one at infinity, any point of the ray
     Vec3f direction{0.0f};       ///< unit, away from the light
     float cos_light = 1.0f;      ///< between the direction and the normal of the light's front
-    float time = 0.0f;           ///< when it leaves, [0, 1]
+    float time = 0.0f;           ///< when it leaves, from 0 at the shutter's opening to 1 at its closing
 };
 
 /// Holds the emission of a point of a lamp in one direction.
@@ -47,7 +47,8 @@ class LightEmitter {
     LightEmitter(const WorldData& data, const Materials& materials, const Media& media);
 
     /// Samples a ray that leaves a light, chosen with `u_light` in [0, 1)²; the ray has the given time. If `aims`, a
-    /// share of rays goes to mirrors and smooth glass (light/light_aim.h).
+    /// share of rays goes to mirrors and smooth glass (light/light_aim.h), as seen from where the light is in the
+    /// middle of the shutter.
     [[nodiscard]] Emission sample(Vec2f u_light, EmissionNumbers u, float time, bool aims) const;
     /// Evaluates the light that leaves the starting point of `emission` along `direction`, towards the camera; black
     /// without a surface, and where that is hidden from the camera.
@@ -66,7 +67,7 @@ class LightEmitter {
     /// Returns the spheres that rays are aimed at; none unless `aims`.
     [[nodiscard]] const LightAim& aim(bool aims) const { return aims ? aim_ : no_aim_; }
     /// Returns the density per area, 1/m², without the choice, with which `sample` picks the point `on_light` of the
-    /// mesh or the shape that is the light of this index, where it is at `time`.
+    /// mesh or the shape that is the light of this index, at `time`, in [0, 1].
     [[nodiscard]] float pdf_area(std::uint32_t light, const Vec3f& on_light, float time) const;
 
     /// Returns the table that chooses.

@@ -11,10 +11,10 @@ namespace etendue {
 
 namespace {
 
-/// Is how much a motion may stretch and shear a light that is taken to be rigid.
+/// Limits how much a rigid motion may stretch and shear a light, as a share of lengths.
 constexpr float kRigid = 2e-3f;
 
-/// Returns whether `m` turns and shifts alone.
+/// Returns whether `m` is a rotation and a translation, within kRigid.
 bool is_rigid(const Mat4f& m) {
     const Vec3f x(m[0][0], m[0][1], m[0][2]);
     const Vec3f y(m[1][0], m[1][1], m[1][2]);
@@ -25,10 +25,11 @@ bool is_rigid(const Mat4f& m) {
            dot(cross(x, y), z) > 0.0f;
 }
 
-/// Returns the angle by which `m`, rigid, turns, radians.
-double turn(const Mat4f& m) {
+/// Returns the angle by which `m`, rigid, rotates, radians.
+double rotation_angle(const Mat4f& m) {
+    const auto off = [&m](int i, int j) { return static_cast<double>(m[i][j]) - static_cast<double>(m[j][i]); };
     const double trace = static_cast<double>(m[0][0]) + static_cast<double>(m[1][1]) + static_cast<double>(m[2][2]);
-    return std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0));
+    return std::atan2(std::hypot(off(1, 2), off(2, 0), off(0, 1)), trace - 1.0);
 }
 
 }  // namespace
@@ -36,9 +37,9 @@ double turn(const Mat4f& m) {
 LightPose::LightPose(const TransformMotion& motion, float time)
     : to_world_(transform_at(motion, time)), to_frame_(to_world_.inverse()) {}
 
-void LightPose::to_world(LightSample& sample, const Vec3f& point) const {
-    const Vec3f on_light = transform_point(to_world_, point_in_frame(point) + sample.wi * sample.distance);
-    const Vec3f to_light = on_light - point;
+void LightPose::to_world(LightSample& sample) const {
+    if (is_black(sample.radiance)) return;
+    const Vec3f to_light = transform_vector(to_world_, sample.wi * sample.distance);
     sample.distance = length(to_light);
     sample.wi = to_light * (1.0f / sample.distance);
     sample.end = transform_point(to_world_, sample.end);
@@ -50,12 +51,19 @@ void LightPose::to_world(EmissionSample& sample) const {
     sample.direction = normalize(transform_vector(to_world_, sample.direction));
 }
 
+Mat4f frame_of(const TransformMotion& motion) {
+    Mat4f frame = motion[(motion.size() - 1) / 2];
+    const Mat4f middle = transform_at(motion, kMidShutter);
+    for (int i = 0; i < 3; ++i) frame[3][i] = middle[3][i];
+    return frame;
+}
+
 std::optional<TransformMotion> rigid_motion(const TransformMotion& motion) {
-    const Mat4f to_frame = transform_at(motion, kMidShutter).inverse();
+    const Mat4f to_frame = frame_of(motion).inverse();
     TransformMotion relative;
     for (const Mat4f& step : motion) relative.push_back(to_frame * step);
     for (std::size_t i = 0; i < relative.size(); ++i) {
-        // Turns are cut short most in the middle between two steps.
+        // Linear interpolation shrinks rotations most in the middle between two steps.
         const bool is_last = i + 1 == relative.size();
         if (!is_rigid(relative[i]) || (!is_last && !is_rigid((relative[i] + relative[i + 1]) * 0.5f))) return {};
     }
@@ -69,11 +77,8 @@ std::optional<LightBounds> swept_bounds(const WorldData& data, std::uint32_t lig
     const Bounds still = bounds->box;
     double most = 0.0;
     for (const Mat4f& step : *motion) {
-        for (int corner = 0; corner < 8; ++corner)
-            bounds->box.extend(transform_point(
-                step, {(corner & 1) != 0 ? still.max.x : still.min.x, (corner & 2) != 0 ? still.max.y : still.min.y,
-                       (corner & 4) != 0 ? still.max.z : still.min.z}));
-        most = std::max(most, turn(step));
+        bounds->box.extend(placed(still, step));
+        most = std::max(most, rotation_angle(step));
     }
     bounds->cone.theta_o = std::min(std::numbers::pi, bounds->cone.theta_o + most);
     return bounds;

@@ -1,8 +1,8 @@
-// Where a light that moves is at a time of the shutter.
+// Poses of moving lights at a time of the shutter.
 //
-// `WorldData::lights` knows no time: it has each light where it is in the middle of the shutter. That is the light's
-// frame. What asks about a light at another time asks in this frame, and takes the answer back to the world. From one
-// to the other lead turns and shifts, which change no density.
+// `WorldData::lights` knows no time: it stores a light that moves where `frame_of` says. This space is the light's
+// frame. A query at a time takes points and directions to this frame, and its results back to the world. The two spaces
+// differ by a rotation and a translation, which change no density.
 #pragma once
 
 #include "core/vec.h"
@@ -17,7 +17,7 @@
 
 namespace etendue {
 
-/// Leads from the frame of a light to the world at one time, and back.
+/// Transforms between the frame of a light and the world at one time.
 class LightPose {
   public:
     /// Makes the pose at `time`, in [0, 1], of a light with this `rigid_motion`.
@@ -29,9 +29,9 @@ class LightPose {
     [[nodiscard]] Vec3f direction_in_frame(const Vec3f& direction) const {
         return normalize(transform_vector(to_frame_, direction));
     }
-    /// Takes to the world a sample of the light that arrives at `point` of the world.
-    void to_world(LightSample& sample, const Vec3f& point) const;
-    /// Takes to the world the beginning of a ray that leaves the light.
+    /// Transforms a sample of light that arrives at a point from the light's frame to the world.
+    void to_world(LightSample& sample) const;
+    /// Transforms `sample`, the origin and direction of a ray that leaves the light, from the frame to the world.
     void to_world(EmissionSample& sample) const;
 
   private:
@@ -39,17 +39,31 @@ class LightPose {
     Mat4f to_frame_;
 };
 
-/// Returns the pose of the light of this index at `time`; none if it stands still.
+/// Returns the pose of the light of this index at `time`, in [0, 1]; none if the light stands still.
 [[nodiscard]] inline std::optional<LightPose> pose_of_light(const WorldData& data, std::uint32_t light, float time) {
     const TransformMotion* const motion = data.motion_of(light);
     return motion != nullptr ? std::optional<LightPose>(std::in_place, *motion, time) : std::nullopt;
 }
 
-/// Returns the steps from where something is in the middle of the shutter to where it is at each of the steps of
-/// `motion`, at least two. None if these do more than turn and shift, within 0.2%.
+/// Returns `point` of the world in the frame of a light with this pose, which has none if it stands still.
+[[nodiscard]] inline Vec3f in_frame(const std::optional<LightPose>& pose, const Vec3f& point) {
+    return pose ? pose->point_in_frame(point) : point;
+}
+/// Returns the unit `direction` of the world in the frame of a light with this pose, which has none if it stands still.
+[[nodiscard]] inline Vec3f direction_in_frame(const std::optional<LightPose>& pose, const Vec3f& direction) {
+    return pose ? pose->direction_in_frame(direction) : direction;
+}
+
+/// Returns the frame of a light that moves by `motion`, of at least two steps: its place in the middle of the shutter,
+/// turned as at a step near it. In the middle between two steps, linear interpolation has shrunk a rotation.
+[[nodiscard]] Mat4f frame_of(const TransformMotion& motion);
+
+/// Returns for each step of `motion`, which has at least two, the transform from `frame_of(motion)` to the place at
+/// that step. None unless all of these, and those between them, are rotations and translations, within 0.2%.
 [[nodiscard]] std::optional<TransformMotion> rigid_motion(const TransformMotion& motion);
 
-/// Returns where the light of this index is and where it shines while the shutter is open; none at infinity.
+/// Returns bounds of the places and emission directions that the light of this index has while the shutter is open;
+/// none for lights at infinity.
 [[nodiscard]] std::optional<LightBounds> swept_bounds(const WorldData& data, std::uint32_t light);
 
 }  // namespace etendue

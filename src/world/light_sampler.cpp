@@ -18,12 +18,6 @@ std::vector<std::optional<LightBounds>> bounds_of_lights(const WorldData& data) 
     return bounds;
 }
 
-/// Returns `point` in the frame that the light of this index has at `time`.
-Vec3f point_in_frame_of(const WorldData& data, std::uint32_t light, const Vec3f& point, float time) {
-    const auto pose = pose_of_light(data, light, time);
-    return pose ? pose->point_in_frame(point) : point;
-}
-
 }  // namespace
 
 LightSampler::LightSampler(const WorldData& data, const Materials& materials)
@@ -32,17 +26,17 @@ LightSampler::LightSampler(const WorldData& data, const Materials& materials)
 ChosenLight LightSampler::sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u,
                                  float time) const {
     const auto pose = pose_of_light(data_, choice.light, time);
-    ChosenLight chosen{sample_light_compensated(data_.lights[choice.light], pose ? pose->point_in_frame(point) : point,
-                                                u.triangle, u.direction),
-                       choice.probability, choice.light, time};
+    ChosenLight chosen{
+        sample_light_compensated(data_.lights[choice.light], in_frame(pose, point), u.triangle, u.direction),
+        choice.probability, choice.light, time};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
     for (const Vec3f& plane : data_.planes_of(choice.light))
         sample.end += dot(plane, sample.wi) <= 0.0f ? plane : -plane;
+    if (pose) pose->to_world(sample);
     if (!is_black(sample.radiance) && has_uneven_emission(data_, choice.light))
         sample.radiance =
-            mesh_emission(data_, materials_, choice.light, sample.triangle, sample.barycentric, -sample.wi);
-    if (pose) pose->to_world(sample, point);
+            mesh_emission(data_, materials_, choice.light, sample.triangle, sample.barycentric, -sample.wi, time);
     return chosen;
 }
 
@@ -62,10 +56,10 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
     const float choice = probability(from, light);
+    const auto pose = pose_of_light(data_, light, time);
     // Where no light needs it, `from` may mean nothing.
     const auto seen_from = [&](const auto& surface) {
-        return point_in_frame_of(
-            data_, light, surface.needs_exact_point() ? from.position : point.position - direction * distance, time);
+        return in_frame(pose, surface.needs_exact_point() ? from.position : point.position - direction * distance);
     };
     return of_surface_light(
         data_.lights[light], 0.0f,
@@ -73,19 +67,19 @@ float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoin
                        return mesh.pdf_solid_angle(point.triangle, seen_from(mesh), distance, cos_light) * choice;
                    },
                    [&](const ShapeLight& shape) {
-                       return shape.pdf_solid_angle(seen_from(shape),
-                                                    point_in_frame_of(data_, light, point.position, time), cos_light) *
+                       return shape.pdf_solid_angle(seen_from(shape), in_frame(pose, point.position), cos_light) *
                               choice;
                    }});
 }
 
 float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& on_light, const Vec3f& point,
                          float time) const {
-    const auto in = [&](const Vec3f& place) { return point_in_frame_of(data_, light, place, time); };
-    return of_surface_light(
-        data_.lights[light], 1.0f,
-        Overloaded{[&](const MeshLight& mesh) { return mesh.gain(triangle, in(on_light), in(point)); },
-                   [&](const ShapeLight& shape) { return shape.gain(in(on_light), in(point)); }});
+    const auto pose = pose_of_light(data_, light, time);
+    const Vec3f own_point = in_frame(pose, point);
+    const Vec3f own_place = in_frame(pose, on_light);
+    return of_surface_light(data_.lights[light], 1.0f,
+                            Overloaded{[&](const MeshLight& mesh) { return mesh.gain(triangle, own_place, own_point); },
+                                       [&](const ShapeLight& shape) { return shape.gain(own_place, own_point); }});
 }
 
 }  // namespace etendue

@@ -26,7 +26,7 @@ struct ChosenLight {
     /// taken.
     float expected_samples = 0;
     std::uint32_t light = kNone;
-    float time = 0.0f;  ///< when it shines, [0, 1]
+    float time = 0.0f;  ///< time of the sample, from 0 at the shutter's opening to 1 at its closing
 
     /// Returns what the light of the sample is divided by: its density, 1/sr, or of a delta light the samples expected.
     [[nodiscard]] float density() const { return sample.is_delta ? expected_samples : sample.pdf_solid_angle; }
@@ -51,7 +51,7 @@ class LightSampler {
     [[nodiscard]] ChosenLight sample(const LightReceiver& receiver, const LightNumbers& u, float time) const {
         return sample(choose(receiver, u.light), receiver.position, u, time);
     }
-    /// Samples light from what `choose` has chosen, where it is at `time`.
+    /// Samples light that arrives at `point` from the light that `choose` has chosen, at `time`, in [0, 1].
     [[nodiscard]] ChosenLight sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u,
                                      float time) const;
     /// Chooses a light for `receiver`, with `u` in [0, 1)².

@@ -7,6 +7,7 @@
 #include "light/light.h"
 #include "sampling/sampler.h"
 #include "world/contacts.h"
+#include "world/light_pose.h"
 #include "world/motion.h"
 #include "world/scene_camera.h"
 #include "world/scene_geometry.h"
@@ -131,17 +132,13 @@ bool is_divided(const WorldData& data, const Bounds& region) {
     return found;
 }
 
-/// Returns whether a boundary may pass over `light`; `moving` are boxes around those that move.
-bool is_passed_over(const Light& light, const std::vector<Bounds>& moving) {
-    return std::visit(
-        [&](const auto& kind) {
-            // What is infinitely far away begins outside of all bodies.
-            if constexpr (requires { kind.bounds(); })
-                return std::ranges::any_of(moving, [&](const Bounds& box) { return overlap(box, kind.bounds().box); });
-            else
-                return false;
-        },
-        light);
+/// Returns whether the bodies around the light of this index may change while the shutter is open; `moving` are boxes
+/// around boundaries that move. What is infinitely far away begins outside of all bodies.
+bool has_changing_bodies(const WorldData& data, std::uint32_t light, const std::vector<Bounds>& moving) {
+    const std::optional<LightBounds> bounds = swept_bounds(data, light);
+    if (!bounds) return false;
+    return std::ranges::any_of(moving, [&](const Bounds& box) { return overlap(box, bounds->box); }) ||
+           (data.motion_of(light) != nullptr && is_divided(data, bounds->box));
 }
 
 }  // namespace
@@ -159,9 +156,8 @@ Media::Media(const WorldData& data, const SceneGeometry& geometry, const SceneCa
             interior_at(camera.generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMidShutter).origin, kMidShutter);
     const std::vector<Bounds> moving = moving_boundaries(data_);
     for (std::uint32_t light = 0; light < data_.lights.size(); ++light)
-        light_interiors_.push_back(data_.motion_of(light) != nullptr || is_passed_over(data_.lights[light], moving)
-                                       ? std::nullopt
-                                       : find_light_interior(light));
+        light_interiors_.push_back(has_changing_bodies(data_, light, moving) ? std::nullopt
+                                                                             : find_light_interior(light));
 }
 
 std::optional<Interior> Media::find_light_interior(std::uint32_t light) const {

@@ -4,7 +4,6 @@
 #include "world/contacts.h"
 #include "world/material_evaluation.h"
 #include "world/materials.h"
-#include "world/motion.h"
 #include "world/surface_point.h"
 
 #include <cstddef>
@@ -15,7 +14,8 @@ namespace etendue {
 namespace {
 
 /// Returns false if another emitter in the same place hides this one towards `direction`.
-bool is_foremost_emitter(const WorldData& data, const SurfacePoint& point, Vec2f barycentric, const Vec3f& direction) {
+bool is_foremost_emitter(const WorldData& data, const SurfacePoint& point, Vec2f barycentric, const Vec3f& direction,
+                         float time) {
     const std::size_t slot = slot_of(data, point.instance, point.geometry);
     if (data.shares_place_of_slot.empty() || data.shares_place_of_slot[slot] == 0) return true;
     const float height = 4.0f * data.contacts->reach(slot);
@@ -23,8 +23,9 @@ bool is_foremost_emitter(const WorldData& data, const SurfacePoint& point, Vec2f
     Ray ray;
     ray.origin = point.position + side * height;
     ray.direction = -side;
-    const Hit hit{height, barycentric.x, barycentric.y, point.triangle, point.geometry & 0x7fffffffu,
-                  0,      point.instance};
+    ray.time = time;
+    const Hit hit{height, barycentric.x,  barycentric.y, point.triangle, point.geometry & 0x7fffffffu,
+                  0,      point.instance, time};
     const Hit& seen = foremost(data, data.contacts->at(data, ray, hit), ray.direction).hit;
     return seen.instance == hit.instance && seen.geometry == hit.geometry && seen.triangle == hit.triangle;
 }
@@ -36,12 +37,11 @@ bool has_uneven_emission(const WorldData& data, std::uint32_t light) {
 }
 
 Rgb mesh_emission(const WorldData& data, const Materials& materials, std::uint32_t light, std::uint32_t triangle,
-                  Vec2f barycentric, const Vec3f& direction) {
-    // The direction is in the light's frame, that of the middle of the shutter.
+                  Vec2f barycentric, const Vec3f& direction, float time) {
     const Emitter& emitter = data.emitter_of_light[light];
     const SurfacePoint point =
-        make_surface_point(data, emitter.instance, emitter.geometry, triangle, barycentric, kMidShutter, ConeSection{});
-    if (!is_foremost_emitter(data, point, barycentric, direction)) return {};
+        make_surface_point(data, emitter.instance, emitter.geometry, triangle, barycentric, time, ConeSection{});
+    if (!is_foremost_emitter(data, point, barycentric, direction, time)) return {};
     return materials.emission(point, direction) * evaluate_opacity(data, emitter.geometry, triangle, barycentric);
 }
 

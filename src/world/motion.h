@@ -10,7 +10,7 @@
 
 namespace etendue {
 
-/// Is the time at which things are that are given a single place: lights, and what asks about the whole shutter.
+/// Is the middle of the shutter, [0, 1]: the time of the stored places of lights, and of queries that have no time.
 inline constexpr float kMidShutter = 0.5f;
 
 /// Between which two of some equally spaced steps a time lies.

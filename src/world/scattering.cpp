@@ -70,8 +70,8 @@ float compression_ratio(const BsdfSample& sample, float cos_o, float cos_i) {
     return std::abs(cos_o) / (sample.eta * sample.eta * std::max(std::abs(cos_i), 1e-6f));
 }
 
-/// Returns the parts of a lobe, of which the diffuse part is a cosine lobe: the lobe of rough diffuse surfaces is none,
-/// and counts as the specular part.
+/// Returns the diffuse and the specular part of a lobe. Only a cosine lobe counts as diffuse: the lobe of a rough
+/// diffuse surface counts as specular.
 BsdfParts lobe_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
     BsdfParts parts = evaluate_bsdf_parts(bsdf, wo, wi, mode);
     if (std::holds_alternative<RoughDiffuse>(bsdf)) std::swap(parts.diffuse, parts.specular);

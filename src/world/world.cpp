@@ -53,6 +53,7 @@ WorldStatistics World::statistics() const {
     s.light_bytes = parts_->emitters.choice().bytes() + parts_->lights.tree().bytes() +
                     vector_bytes(data.lights, data.emitter_of_light, data.light_of_slot, data.size_of_slot);
     for (const Light& light : data.lights) s.light_bytes += light_bytes(light);
+    for (const TransformMotion& motion : data.motion_of_light) s.light_bytes += sizeof(motion) + vector_bytes(motion);
     s.isa = data.bvh->instruction_set();
     s.bvh_bytes = data.bvh->bytes() + (data.clear_surfaces ? data.clear_surfaces->bytes() : 0) +
                   (data.contacts ? data.contacts->bytes() : 0);

@@ -184,7 +184,7 @@ TEST(UnreachableLight, UnlitSurfacesAreNotFoundFromTheLight) {
 TEST(UnreachableLight, EmittersThatGrowAreNotFoundFromTheLight) {
     SceneDesc scene = wall_and_lamp();
     EXPECT_EQ(who_says(compile(scene), "not sampled"), Names());
-    // What turns and shifts, or does not glow, is found by all.
+    // All integrators find a lamp that only shifts, and a wall that moves but does not glow.
     scene.instances.front().motion = {Mat4f(), translation({0.1f, 0, 0})};
     scene.instances.back().motion = {Mat4f(), translation({0.1f, 0, 0})};
     EXPECT_EQ(who_says(compile(scene), "not sampled"), Names());

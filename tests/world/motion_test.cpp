@@ -255,6 +255,64 @@ TEST(Motion, RaysLeaveLampsWhereTheyAre) {
     }
 }
 
+// In the middle of two steps straight lines have shrunk what turns: no lamp may be made from that.
+TEST(Motion, LampsOfTwoStepsKeepTheirShape) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, exact(ShapeKind::Cylinder, {0.2f, 0.5f, 0.2f}), add_material(scene, emissive(Rgb(2.0f))));
+    Mat4f tilted;
+    tilted.setEulerAngles(Vec3f(0.0f, 0.0f, 0.04f));
+    scene.instances[0].motion = {tilted.transposed() * translation({-1, 0, -3}), tilted * translation({1, 0, -3})};
+    scene.instances[0].to_world = translation({0, 0, -3});
+    ProblemList problems;
+    const World world = compile(scene, "Linear Rec.709 (sRGB)", problems);
+    EXPECT_TRUE(problems.all().empty());
+    EXPECT_FALSE(world.traits().has_unsampled_emitters);
+}
+
+// Spots shine beyond the cone that they have at any single moment.
+TEST(Motion, BoundsOfSpotsThatTurnAreWide) {
+    SceneDesc scene = empty_scene();
+    LightDesc spot;
+    spot.type = LightType::Spot;
+    spot.inner_cone_angle = 0.0f;
+    spot.outer_cone_angle = 0.2f;
+    const auto cone_after = [&](float angle) {
+        spot.motion.clear();
+        for (const float a : {-angle, angle}) {
+            Mat4f turned;
+            turned.setEulerAngles(Vec3f(0.0f, a, 0.0f));
+            spot.motion.push_back(turned);
+        }
+        scene.lights = {spot};
+        return compile(scene).lights().bounds(0)->cone.theta_o;
+    };
+    EXPECT_NEAR(cone_after(0.05f) - cone_after(0.0f), 0.1, 1e-3);
+}
+
+TEST(Motion, SunsThatTurnKeepTheirDirectionWithANote) {
+    SceneDesc scene = empty_scene();
+    LightDesc sun;
+    sun.type = LightType::Directional;
+    LightDesc point;
+    point.type = LightType::Point;
+    Mat4f turned;
+    turned.setEulerAngles(Vec3f(0.9f, 0.0f, 0.0f));
+    sun.motion = point.motion = {Mat4f(), turned * translation({1, 0, 0})};
+    LightDesc sliding = sun;
+    sliding.motion = {Mat4f(), translation({1, 0, 0})};
+    LightDesc spinning = point;
+    spinning.type = LightType::Spot;
+    scene.lights = {sun, point, sliding, spinning};
+    ProblemList problems;
+    const World world = compile(scene, "Linear Rec.709 (sRGB)", problems);
+    ASSERT_EQ(problems.all().size(), 1u);
+    EXPECT_TRUE(problems.all()[0].message.starts_with("2 suns that turn, or spots")) << problems.all()[0].message;
+    // The point moves, however fast it turns.
+    const Bounds box = world.lights().bounds(1)->box;
+    EXPECT_EQ(box.min.x, 0.0f);
+    EXPECT_EQ(box.max.x, 1.0f);
+}
+
 TEST(Motion, LampsThatChangeTheirSizeAreLeftToChance) {
     SceneDesc scene = empty_scene();
     const auto material = add_material(scene, emissive(Rgb(2.0f)));

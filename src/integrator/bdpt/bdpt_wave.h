@@ -64,7 +64,7 @@ class BdptWave final : public IntegratorScratch {
         Scattering::TwoWayValue at_eye{};
         Scattering::TwoWayValue at_light{};
     };
-    /// Holds a connection of plain diffuse surfaces, whose lanes are computed at once.
+    /// Holds a connection of two plain diffuse vertices. Many are computed at once, one in each lane.
     struct WideBetween {
         const ConnectibleVertex* eye;
         const ConnectibleVertex* light;

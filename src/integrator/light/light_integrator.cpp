@@ -21,9 +21,8 @@ std::vector<std::string> LightIntegrator::unreachable_light(const World& world) 
             "a path could start with; 'path' finds it");
     if (world.traits().has_unsampled_emitters)
         sentences.emplace_back(
-            "surfaces that glow and are not sampled, because they deform, grow or turn fast while the shutter is open "
-            "or are too many, "
-            "start no paths from the light: neither they nor what they light is seen; 'path' finds it");
+            "surfaces that glow and are not sampled (a note says why) start no paths from the light: neither they nor "
+            "what they light is seen; 'path' finds it");
     return sentences;
 }
 

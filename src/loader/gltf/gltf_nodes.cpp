@@ -134,39 +134,28 @@ class Placer {
         return bytes;
     }
 
-    void report_turning_suns() const {
-        if (turning_suns_ == 0) return;
-        problems_.note(document_.at("/animations"),
-                       fmt::format("{} directional lights turn while the shutter is open; they are taken to shine as "
-                                   "they do in the middle of it",
-                                   turning_suns_));
-    }
-
   private:
     /// Returns how a node moves while the shutter is open, for what render.json puts there.
     [[nodiscard]] TransformMotion motion_of_node(int node, const SourceLocation& where) {
         const std::span<const Mat4d> steps = nodes_.motion(node);
         if (steps.empty() || !accessors_.allocate(steps.size(), sizeof(Mat4f), where)) return {};
-        return thin_out(steps, Bounds{Vec3f(-1.0f), Vec3f(1.0f)});
+        TransformMotion motion = thin_out(steps, Bounds{Vec3f(-1.0f), Vec3f(1.0f)});
+        return std::ranges::all_of(motion, is_invertible) ? motion : TransformMotion();
     }
 
-    /// Returns the poses of `motion`, without its scale, of what is at `to_world` in the middle of it.
+    /// Returns the rigid parts of the steps of `motion`, thinned out; `to_world` stands in for a step that has none.
     [[nodiscard]] static std::vector<Mat4f> rigid_poses(const Mat4f& to_world, std::span<const Mat4d> motion) {
         std::vector<Mat4f> poses;
         for (const Mat4d& step : motion) poses.push_back(rigid_part(to_float(step)).value_or(to_world));
         return poses.empty() ? poses : thin_out_poses(poses);
     }
 
-    /// Has the lights of a node move with it.
+    /// Gives the lights of a node its motion.
     void move_lights(std::span<LightDesc> lights, const Mat4f& to_world, std::span<const Mat4d> motion,
                      const SourceLocation& where) {
         const std::vector<Mat4f> poses = rigid_poses(to_world, motion);
         if (!accessors_.allocate(lights.size() * poses.size(), sizeof(Mat4f), where)) return;
-        for (LightDesc& light : lights)
-            if (light.type == LightType::Directional)
-                ++turning_suns_;
-            else
-                light.motion = poses;
+        for (LightDesc& light : lights) light.motion = poses;
     }
 
     /// Places the mesh of `node` everywhere the node has it.
@@ -298,9 +287,8 @@ class Placer {
     std::vector<std::uint32_t> node_index_;    ///< index in the scene of each of the file's nodes
     std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
     std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
-    std::size_t turning_suns_ = 0;
-    std::size_t longest_light_name_ = 0;  ///< bytes
-    FreeNames camera_names_;              ///< cameras are chosen by name, so each has one of its own
+    std::size_t longest_light_name_ = 0;       ///< bytes
+    FreeNames camera_names_;                   ///< cameras are chosen by name, so each has one of its own
 };
 
 /// How much of everything that nodes place a scene has.
@@ -343,7 +331,6 @@ void place_all(const GltfDocument& document, AccessorReader& accessors, std::spa
     Placer placer(document, accessors, deformer, nodes, scene, problems);
     placer.add_nodes(parents);
     for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
-    placer.report_turning_suns();
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ namespace etendue {
 /// affine; nodes with a singular transform are left out with a warning.
 /// `deformations` are those of the meshes. The nodes are where `animation` has them at the moment that `settings` show,
 /// or in their own pose without one; skinned and morphed meshes are appended to the scene's as they are then. While the
-/// shutter is open, what moves gets its motion; a note counts directional lights that do, as they are taken not to
-/// turn.
+/// shutter is open, what moves gets its motion.
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
                 const AnimationSampler* animation, const RenderSettings& settings, SceneDesc& scene,
                 ProblemList& problems);

@@ -55,6 +55,20 @@ Corners moved_corners(const Mat4d& m, const Bounds& bounds) {
     return corners;
 }
 
+/// Limits how much straight lines between steps may shorten or turn the axes of what turns, as a share of their length.
+constexpr double kMostShrunk = 1e-3;
+
+/// Returns how far the axes of `a` are from those of `b`, the largest as a share of its length.
+double axes_apart(const Mat4d& a, const Mat4d& b) {
+    double largest = 0.0;
+    for (int r = 0; r < 3; ++r) {
+        const Vec3d axis(b[r][0], b[r][1], b[r][2]);
+        const Vec3d off = Vec3d(a[r][0], a[r][1], a[r][2]) - axis;
+        if (const double length = axis.length(); length > 0.0) largest = std::max(largest, off.length() / length);
+    }
+    return largest;
+}
+
 /// Every how many steps straight lines between them are enough for the box.
 std::size_t stride_for_box(std::span<const Mat4d> steps, const Bounds& bounds) {
     std::vector<Corners> corners;
@@ -64,15 +78,17 @@ std::size_t stride_for_box(std::span<const Mat4d> steps, const Bounds& bounds) {
         corners.push_back(moved_corners(step, bounds));
         for (const Vec3d& corner : corners.back()) swept.extend(Vec3f(corner));
     }
+    const double tolerance = kMotionTolerance * static_cast<double>(length(swept.size()));
     const auto distance = [&](std::size_t a, std::size_t b, double t, std::size_t c) {
-        double largest = 0.0;
+        // Lamps are sampled as rigid bodies (world/light_pose.h), which straight lines shrink while they turn.
+        double largest = tolerance / kMostShrunk * axes_apart(steps[a] * (1.0 - t) + steps[b] * t, steps[c]);
         for (std::size_t i = 0; i < corners[a].size(); ++i) {
             const Vec3d straight = corners[a][i] * (1.0 - t) + corners[b][i] * t;
             largest = std::max(largest, (straight - corners[c][i]).length());
         }
         return largest;
     };
-    return coarsest_stride(steps.size() - 1, kMotionTolerance * static_cast<double>(length(swept.size())), distance);
+    return coarsest_stride(steps.size() - 1, tolerance, distance);
 }
 
 std::size_t bytes_of(const NodePoses& poses) {

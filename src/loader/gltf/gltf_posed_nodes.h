@@ -103,11 +103,11 @@ template <typename Distance>
 }
 
 /// The fewest of `steps` (2^n + 1, equally spaced) that keep every point of `bounds` within a thousandth of what it
-/// sweeps of where it was.
+/// sweeps of where it was, and every axis within a thousandth of its length.
 [[nodiscard]] std::vector<Mat4f> thin_out(std::span<const Mat4d> steps, const Bounds& bounds);
 
-/// The fewest of a camera's poses, rigid transforms, that keep its axes within a ten-thousandth of a radian, and its
-/// place within a ten-thousandth of its way, of where they were: what it sees may be far away.
+/// The fewest of the poses of a camera or a lamp, rigid transforms, that keep its axes within a ten-thousandth of a
+/// radian, and its place within a ten-thousandth of its way, of where they were: what it sees may be far away.
 [[nodiscard]] std::vector<Mat4f> thin_out_poses(std::span<const Mat4f> steps);
 
 }  // namespace etendue

@@ -116,7 +116,6 @@ class LightChanges {
             if (change.kind) prepare(name, change, added);
         remove_or_soften();
         for (const LampToAdd& lamp : added) add(lamp);
-        note_turning_suns(added);
     }
 
   private:
@@ -250,7 +249,7 @@ class LightChanges {
             for (const std::size_t i : replaced) {
                 one.to_world = scene_.lights[i].to_world;
                 one.node = node_of(scene_.lights[i].node);
-                one.motion = rigid_steps(motion_of(one.node), one.to_world);
+                one.motion = scene_.lights[i].motion;
                 added.push_back(one);
             }
         } else {
@@ -258,7 +257,7 @@ class LightChanges {
             one.node = node_of(node);
             if (one.node == NodeDesc::kNone) return report_unknown_node(node, lamp);
             one.to_world = scene_.nodes[one.node].to_world;
-            one.motion = motion_of(one.node);
+            one.motion = scene_.nodes[one.node].motion;
             added.push_back(one);
         }
     }
@@ -278,28 +277,10 @@ class LightChanges {
                    fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
     }
 
-    /// Returns how a node moves; empty where it does not, or is flat at some time.
-    [[nodiscard]] TransformMotion motion_of(std::uint32_t node) const {
-        if (node == NodeDesc::kNone) return {};
-        const TransformMotion& motion = scene_.nodes[node].motion;
-        return std::ranges::all_of(motion, is_invertible) ? motion : TransformMotion();
-    }
-
-    /// Returns the steps of `motion` without their scale, of what is at `to_world` in the middle of it.
+    /// Returns the rigid parts of the steps of `motion`; `to_world` stands in for a step that has none.
     [[nodiscard]] static TransformMotion rigid_steps(TransformMotion motion, const Mat4f& to_world) {
         for (Mat4f& step : motion) step = rigid_part(step).value_or(to_world);
         return motion;
-    }
-
-    /// Notes suns on nodes that move, which do not turn with them.
-    void note_turning_suns(const std::vector<LampToAdd>& added) {
-        const auto count = std::ranges::count_if(
-            added, [](const LampToAdd& lamp) { return lamp.lamp->kind == LampKind::Sun && !lamp.motion.empty(); });
-        if (count == 0) return;
-        problems_.note({scene_.file.string(), "/animations"},
-                       fmt::format("{} suns of \"lights\" are on nodes that move while the shutter is open; they are "
-                                   "taken to shine as they do in the middle of it",
-                                   count));
     }
 
     /// Puts surfaces in place of points that have a radius, and leaves out what is not wanted.
@@ -367,7 +348,7 @@ class LightChanges {
         light.outer_cone_angle = lamp.outer_cone_angle;
         light.angle = lamp.angle.value_or(0.0f);
         light.to_world = *rigid;
-        if (lamp.kind != LampKind::Sun) light.motion = rigid_steps(added.motion, *rigid);
+        light.motion = rigid_steps(added.motion, *rigid);
         light.location = lamp.location;
         apply_strength(lamp, profile_of(lamp), scene_, light);
         if (const float radius = lamp.radius.value_or(0.0f); radius > 0.0f)

@@ -16,9 +16,9 @@ struct SurfaceLamp {
     std::string data_name;                 ///< name of its mesh and its material
     std::uint32_t node = NodeDesc::kNone;  ///< index into SceneDesc::nodes
     Mat4f to_world{};                      ///< in the middle of the shutter
-    TransformMotion motion;                ///< while the shutter is open
+    TransformMotion motion;                ///< `to_world` while the shutter is open; empty if the lamp stands still
     Rgb color{1.0f};                       ///< linear Rec.709
-    float radiance = 0.0f;                 ///< W/(m² sr), of a spot's beam that along the normal
+    float radiance = 0.0f;                 ///< W/(m² sr); for a spot's beam, along the normal
     BeamDesc beam{};
     bool visible_to_camera = true;
     /// Tells whether it stops other lamps' light; rays that go on through it take up its light on the way.

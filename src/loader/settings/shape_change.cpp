@@ -2,7 +2,6 @@
 
 #include "core/shown_text.h"
 #include "loader/json_text.h"
-#include "scene/transform.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -60,9 +59,7 @@ class ShapePlacer {
                                       name_hint(node, sorted_names(scene_.nodes))));
         if (replace_meshes(name, change, material, nodes)) return;
         for (const std::uint32_t n : nodes) {
-            const NodeDesc& at = scene_.nodes[n];
-            const bool is_flat = !std::ranges::all_of(at.motion, is_invertible);
-            add(name, change, material, {at.to_world, is_flat ? TransformMotion() : at.motion, n});
+            add(name, change, material, {scene_.nodes[n].to_world, scene_.nodes[n].motion, n});
         }
     }
 

@@ -1,4 +1,4 @@
-// Views of the camera on light subpaths, and connections from where these begin: lamps in view, found from their side.
+// Connects the points at which light subpaths begin to the camera: lamps in view, found from their side.
 #pragma once
 
 #include "transport/bodies.h"
