@@ -101,7 +101,7 @@ std::optional<ProcessOwner> read_owner(const fs::path& file) {
     }
 }
 
-/// Returns whether `file` was touched not longer before `now()`, a timespec, than `dead_after`.
+/// Returns whether `file` was last touched at most `dead_after` before the time `now()`, a timespec.
 template <typename Now>
 bool is_young(const fs::path& file, const Now& now, std::chrono::seconds dead_after) {
     // Opened, so that a network file system asks its server.

@@ -39,8 +39,8 @@ struct InterfaceFresnel {
         return {reflected, transmitted, chance + transmitted > 0.0f ? chance / (chance + transmitted) : 1.0f};
     }
 
-    /// Splits the reflectance, where reflection is not total, into `bare` times the reflectance of the indices plus
-    /// `all`. It is that of the brightest channel, without the film.
+    /// Writes the reflectance of the brightest channel, without the film and where reflection is not total, as `bare`
+    /// times the Fresnel reflectance of the two indices plus `all`.
     struct Mixture {
         float bare = 1.0f;
         float all = 0.0f;

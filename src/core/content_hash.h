@@ -37,7 +37,7 @@ class ContentHash {
 /// Returns the digest of `text` as 32 hexadecimal digits.
 [[nodiscard]] std::string content_hex(std::string_view text);
 
-/// Throws IoError if `path` is there and is no regular file: a pipe would be waited for, and a device read for ever.
+/// Throws IoError if `path` exists and is no regular file: reading a pipe would block, and a device may never end.
 void require_regular_file(const std::filesystem::path& path);
 
 /// Returns the digest of the bytes of the file `path`. Throws IoError if the file cannot be read.

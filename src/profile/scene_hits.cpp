@@ -92,8 +92,8 @@ class HitCounter {
     }
 
   private:
-    /// Returns the name of the lamp that `ray` leads to; `end` is the hit there. Null if the lamp is not known, as if
-    /// `ray` grazes the lamp and meets the wall behind.
+    /// Returns the name of the lamp that `ray` leads to; `end` is the hit there. Returns null if the lamp is not
+    /// known, for example because `ray` grazes the lamp and meets the wall behind it.
     [[nodiscard]] const std::string* lamp_of(const Ray& ray, const Hit& end) const {
         static const std::string kNoSurface = "lights without a surface";
         if (end.valid() && lit_instances_.contains(end.instance)) return &names_.objects[end.instance];

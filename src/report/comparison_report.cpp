@@ -43,8 +43,8 @@ double SeedValues::largest() const {
 }
 
 std::string heavy_tail(const VariantReport& variant, const std::string& metric) {
-    // Where seeds scatter by more, chance decides what a mean of few seeds holds, and the variance of its logarithm,
-    // which is of first order, is too small.
+    // If seeds scatter by more than this, as a share of their mean, chance decides what a mean of few seeds holds, and
+    // the first-order variance of its logarithm is too small.
     constexpr double kMostScatter = 0.5;
     // The largest 0.1% hold this share if terms follow Pareto's law with the exponent 3/2, whose variance is infinite.
     constexpr double kMostOfValues = 0.1;

@@ -124,8 +124,8 @@ std::vector<std::vector<std::string>> variant_rows(const ComparisonReport& repor
 
 using KeysAndHeads = std::vector<std::pair<std::string, std::string>>;
 
-/// Returns the ratios to show. With a reference, they are of errors, and trimmed errors come first if others have no
-/// interval; without a reference, the ratios are of rates.
+/// Returns the ratios to show. With a reference, they are of errors, and of errors times time; trimmed errors come
+/// first if others have no interval. Without a reference, they are of rays per second and of efficiency.
 KeysAndHeads shown_ratios(const ComparisonReport& report) {
     if (report.metrics.empty()) return {{"rays_per_second", "rays per second"}, {"efficiency", "efficiency"}};
     KeysAndHeads shown{{"relmse", "relMSE"},
@@ -135,7 +135,7 @@ KeysAndHeads shown_ratios(const ComparisonReport& report) {
     if (std::ranges::any_of(report.pairs, [](const PairReport& pair) {
             return pair.no_interval.contains("relmse") && !pair.no_interval.contains("relmse-trimmed");
         }))
-        // Clang 14 reads no subrange of libstdc++, which std::ranges::stable_partition returns.
+        // Clang 14 cannot compile libstdc++'s std::ranges::subrange, which std::ranges::stable_partition returns.
         std::stable_partition(shown.begin(), shown.end(),
                               [](const auto& ratio) { return ratio.first.starts_with("relmse-trimmed"); });
     return shown;

@@ -59,8 +59,8 @@ struct LightPointPdfs {
                          mis.world.emitters().pdf(emitted, mis.aims), arrived);
 }
 
-/// Returns the sums for a lamp that a camera ray has met at `on_light` and `time`, which the strategy (1, 1) finds,
-/// too.
+/// Returns the sums for a lamp that a camera ray of `time`, in [0, 1], has met at `on_light`. The strategy (1, 1) finds
+/// the lamp, too.
 [[nodiscard]] inline StrategySums sums_at_seen_emitter(const MisContext& mis, std::uint32_t light,
                                                        const Vec3f& on_light, float time,
                                                        const SubpathDensities& arrived) {
@@ -69,8 +69,8 @@ struct LightPointPdfs {
                               arrived.a};
 }
 
-/// Returns the sums for the emission along `wo` of a lamp that `eye` has met at `point` and `time`, with the densities
-/// `arrived`.
+/// Returns the sums for the emission along `wo` of a lamp that `eye` has met at `point`, with the densities `arrived`;
+/// `time`, in [0, 1], is that of its rays.
 [[nodiscard]] inline StrategySums sums_of_met_lamp(const MisContext& mis, const SubpathProgress& eye,
                                                    const SurfacePoint& point, const Vec3f& wo, float time,
                                                    const SubpathDensities& arrived) {

@@ -100,7 +100,8 @@ TEST(Bsdf, SamplesFollowTheStatedDensity) {
         std::uint32_t seed;
     };
     const std::vector<BsdfSetting> settings = distribution_settings();
-    // Every third direction of each lobe; its neighbours in the table, which differ in one number, have the others.
+    // Each lobe is checked in every third direction. Its neighbours in the table, which differ in one number, are
+    // checked in the others.
     std::vector<Check> checks;
     std::uint32_t seed = 0;
     for (std::size_t i = 0; i < settings.size(); ++i) {

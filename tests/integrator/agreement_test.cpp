@@ -22,7 +22,7 @@ namespace etendue::test {
 namespace {
 
 /// Returns how many comparisons with the first integrator of its room there are in all rooms.
-std::size_t room_comparisons() {
+std::size_t comparison_count() {
     std::size_t count = 0;
     for (const AgreementCase& room : agreement_cases()) count += room.integrators.size() - 1;
     return count;
@@ -41,7 +41,7 @@ TEST_P(Agreement, MakesTheSameImage) {
         const ImageEstimate other = estimate(world, integrator, room, {.first_seed = 200}, threads);
         const BlockAgreement result = test_agreement(
             first, other,
-            {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, room_comparisons())});
+            {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, comparison_count())});
         if (result.agree()) continue;
         const Disagreement pair{{reference, &first.mean}, {integrator, &other.mean}};
         const std::filesystem::path images = write_failure_images(test_output_directory(), room, world, {&pair, 1});
@@ -50,7 +50,8 @@ TEST_P(Agreement, MakesTheSameImage) {
     }
 }
 
-/// An integrator that renders a crop of a room, and the pixel filter: splats reach beyond their pixels but in a box.
+/// An integrator that renders a crop of a room, and the pixel filter: only a box filter keeps splats within their
+/// pixels.
 class CropAgreement : public testing::TestWithParam<std::tuple<const char*, FilterShape>> {};
 
 // All splats of the whole image reach the crop in the one, in the other only what is meant for it: the two differ in

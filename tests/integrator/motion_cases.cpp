@@ -85,7 +85,7 @@ ClosedFormCase rising_ball() {
     ball.shape = ShapeDesc{ShapeKind::Sphere, Vec3f(static_cast<float>(kRadius))};
     ball.positions = ball.shape->corners();
     add(scene, ball, emitter(3.0f));
-    // The scale of the place is that of the shape.
+    // `to_world` is the middle of the motion.
     scene.instances.back().motion = {translation({0.0f, static_cast<float>(kLow), 0.013f}),
                                      translation({0.0f, static_cast<float>(kHigh), 0.013f})};
     scene.instances.back().to_world = translation({0.0f, static_cast<float>(0.5 * (kLow + kHigh)), 0.013f});

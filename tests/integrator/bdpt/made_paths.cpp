@@ -114,9 +114,9 @@ class PathsOfSample {
     /// Tells of the path from `end` over those of `inner` that are from the light, and back over those of `eye`.
     void tell(const PathLightEnd& end, Vertices inner, const Vertices& eye, std::size_t s, double weight) const {
         inner.insert(inner.end(), eye.rbegin(), eye.rend());
-        hear_({timed(end), inner, s, view_of(eye.front()->position)}, weight);
+        hear_({with_time(end), inner, s, view_of(eye.front()->position)}, weight);
     }
-    [[nodiscard]] PathLightEnd timed(PathLightEnd end) const {
+    [[nodiscard]] PathLightEnd with_time(PathLightEnd end) const {
         end.time = sample_.eye.ray.time;
         return end;
     }
@@ -178,7 +178,7 @@ class PathsOfSample {
         if (!is_in_view(sample_.world(), job_, pixel)) return;
         const Vec2f lens = sample_.pair(SubpathEnd::AtLight, light.index, SubpathDimension::LightChoice);
         const CameraConnection camera = sample_.world().camera().connect(light.position, lens, sample_.eye.ray.time);
-        hear_({timed(light_end_), light_.up_to(light), static_cast<std::size_t>(light.index) + 1, camera},
+        hear_({with_time(light_end_), light_.up_to(light), static_cast<std::size_t>(light.index) + 1, camera},
               found->sums.weight());
     }
 
