@@ -231,9 +231,9 @@ std::exception_ptr write_with_heat_maps(const ProfileArguments& arguments,
     const std::filesystem::path directory = arguments.output;
     std::error_code ignored;  // one that stays is only one too many
     for (const std::string& name : heat_maps_in(directory)) std::filesystem::remove(directory / name, ignored);
-    if (arguments.accelerators.names.empty())
-        for (const std::string& name : accelerator_pictures({.names = accelerator_names()}))
-            std::filesystem::remove(directory / name, ignored);
+    const std::vector<std::string> drawn = accelerator_pictures(arguments.accelerators);
+    for (const std::string& name : accelerator_pictures({.names = accelerator_names()}))
+        if (std::ranges::find(drawn, name) == drawn.end()) std::filesystem::remove(directory / name, ignored);
     write_report(files, report, images);
     try {
         for (const CostMap& map : costs) write_heat_map(directory, window, map, report, images);

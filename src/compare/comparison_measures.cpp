@@ -164,28 +164,60 @@ std::optional<ReachedError> time_to_reach(const VariantReport& one, const Varian
     return ReachedError{reached->work, reached->extrapolated};
 }
 
+/// Is the share of the least relMSE above which a reference's own noise decides what ratios of errors are.
+constexpr double kMuchNoise = 0.1;
+
+/// Returns the relMSE that the noise of a reference that was not pooled has, or may have; a pooled one has that much in
+/// any case. 0 if nothing is known of it.
+double noise_of(const ReferenceReport& reference) {
+    if (reference.kind == "pooled") return 0.0;
+    return std::fmax(0.0, std::isnan(reference.noise_rel_mse) ? reference.most_noise : reference.noise_rel_mse);
+}
+
+/// Returns the relMSE that the reference's noise may have: by how much more the mean of the seeds is off than its own
+/// variance explains, of the best known variant that finds all light. A difference of another kind counts, too.
+double most_noise(std::span<const Variant> variants, std::span<const FinishedImages> images,
+                  const Reference& reference) {
+    double least_variance = std::numeric_limits<double>::infinity();
+    double noise = kUnknown;
+    for (std::size_t v = 0; v < images.size(); ++v) {
+        if (images[v].of_seeds.size() < 2 || !variants[v].cannot_find.empty()) continue;
+        if (!(images[v].relative_variance < least_variance)) continue;
+        least_variance = images[v].relative_variance;
+        const ImageEstimate& mean = images[v].estimate;
+        noise = compute_error_metrics(mean.mean, reference.of_round(0), {}, mean.variance.pixels).rel_mse;
+    }
+    return std::fmax(0.0, noise);
+}
+
 void fill_ratios(PairReport& pair, const ComparisonReport& report, const VariantReport& a, const VariantReport& b) {
     pair.ratios["rays_per_second"] = {.ratio = a.rays_per_second / b.rays_per_second};
     pair.ratios["efficiency"] = {.ratio = a.efficiency / b.efficiency};
     if (a.errors.empty()) return;
+    // The reference's noise draws ratios towards 1, or leaves little of the errors; all seeds share it, so that their
+    // scatter does not show it.
+    const double least = std::fmin(a.errors.at(kRelMse).mean(), b.errors.at(kRelMse).mean());
+    const bool is_drawn = noise_of(report.reference) > kMuchNoise * least;
     for (const auto& [metric, values] : a.errors) {
         RatioInterval& ratio = pair.ratios[metric];
         ratio = ratio_interval(values.log_mean(), b.errors.at(metric).log_mean());
-        // The noise of the reference draws the ratio towards 1, by more than the interval knows.
-        if (report.reference.noise_rel_mse > 0.0 && std::ranges::find(kWithoutNoise, metric) == kWithoutNoise.end())
-            ratio = {.ratio = ratio.ratio};
+        const bool has_noise =
+            report.reference.noise_rel_mse > 0.0 && std::ranges::find(kWithoutNoise, metric) == kWithoutNoise.end();
+        if (is_drawn || has_noise) ratio = {.ratio = ratio.ratio};
         for (const VariantReport* const variant : {&a, &b})
             if (const std::string why = heavy_tail(*variant, metric); !why.empty()) {
                 ratio = {.ratio = ratio.ratio};
                 pair.no_interval[metric] = why;
             }
     }
-    // All renders of a variant take the same samples: what their times scatter by is the machine's.
-    const double times = report.time_of(a).mean() / report.time_of(b).mean();
     for (const char* metric : {kRelMse, kTrimmed}) {
-        const RatioInterval& errors = pair.ratios[metric];
         const std::string with_time = std::string(metric) + "_time";
-        pair.ratios[with_time] = {errors.ratio * times, errors.low * times, errors.high * times};
+        const auto cost = [&](const VariantReport& variant) {
+            return product(variant.errors.at(metric).log_mean(), report.time_of(variant).log_mean());
+        };
+        RatioInterval& ratio = pair.ratios[with_time];
+        ratio = ratio_interval(cost(a), cost(b));
+        if (std::isnan(pair.ratios[metric].low)) ratio = {.ratio = ratio.ratio};
         if (const auto why = pair.no_interval.find(metric); why != pair.no_interval.end())
             pair.no_interval[with_time] = why->second;
     }
@@ -307,18 +339,23 @@ std::string drowned_errors(const ComparisonReport& report) {
 }
 
 std::string reference_noise(const ComparisonReport& report) {
-    constexpr double kMuch = 0.1;
-    const double noise = report.reference.noise_rel_mse;
+    const double noise = noise_of(report.reference);
     double least = std::numeric_limits<double>::infinity();
     for (const VariantReport& variant : report.variants)
         if (const auto errors = variant.errors.find(kRelMse); errors != variant.errors.end())
             least = std::fmin(least, errors->second.mean());
-    // A pooled one has that much in any case.
-    if (report.reference.kind == "pooled" || !std::isfinite(least) || !(noise > kMuch * least)) return "";
+    if (!std::isfinite(least) || !(noise > kMuchNoise * least)) return "";
+    const std::string share =
+        fmt::format("a relMSE of {:.3g}, is {:.0f}% of the least relMSE", noise, 100.0 * noise / least);
+    if (std::isnan(report.reference.noise_rel_mse))
+        return fmt::format(
+            "what tells the reference from the mean of all seeds, {}: its own noise, which is not known, or another "
+            "difference adds that to all errors and draws their ratios towards 1; they have no intervals",
+            share);
     return fmt::format(
-        "the reference's own noise, a relMSE of {:.3g}, is {:.0f}% of the least relMSE: it is taken off relMSE and MSE "
-        "as well as it is known, and adds to the other errors; a longer reference has less",
-        noise, 100.0 * noise / least);
+        "the reference's own noise, {}: it is taken off relMSE and MSE as well as it is known, and adds to the other "
+        "errors; ratios have no intervals; a longer reference has less",
+        share);
 }
 
 std::string off_budget(const ComparisonReport& report) {
@@ -398,6 +435,8 @@ void measure(ComparisonReport& report, std::span<const Variant> variants, std::s
         for (const ErrorMetric metric : kErrorMetrics)
             report.metrics.push_back({key_of(metric), title_of(metric), formula_of(metric)});
         measure_flip(report, images, *reference, maps, context);
+        if (std::isnan(report.reference.noise_rel_mse))
+            report.reference.most_noise = most_noise(variants, images, *reference);
         report.metrics.push_back({kFlip, "HDR-FLIP", describe_hdr_flip(kFlipPixelsPerDegree, maps.exposures)});
     }
     const Rgb weights = context.colors.luminance_weights(report.working_space);

@@ -35,7 +35,8 @@ struct ErrorMaps {
 /// A note if the times of variants, which were to be equal, differ by more than a tenth; else empty.
 [[nodiscard]] std::string unequal_times(const ComparisonReport& report);
 
-/// Returns a note if a reference that was not pooled has noise of more than a tenth of the least error; else empty.
+/// Returns a note if a reference that was not pooled has, or may have, noise of more than a tenth of the least error;
+/// else empty.
 [[nodiscard]] std::string reference_noise(const ComparisonReport& report);
 
 /// Returns a note on the variants whose mean time is more than a tenth off the one that was asked for; else empty.

@@ -51,11 +51,13 @@ std::string names_text(std::span<const Variant> variants, const Members& members
 /// Variants that find all of the light they show, by which light that is; most of one kind first. Those whose images
 /// cannot be tested are `untested` and in no group.
 std::vector<Members> groups_of_light(std::span<const Variant> variants, std::span<const FinishedImages> images,
-                                     Members& untested) {
+                                     std::span<const PairReport> pairs, Members& untested) {
     std::vector<Members> groups;
     for (std::size_t v = 0; v < variants.size(); ++v) {
         if (!variants[v].cannot_find.empty()) continue;
-        if (images[v].of_seeds.size() > 1 && !images[v].block_size) {
+        const bool is_darker = std::ranges::any_of(
+            pairs, [&](const PairReport& pair) { return pair.comparable && pair.darker == variants[v].name; });
+        if (images[v].of_seeds.size() > 1 && (!images[v].block_size || is_darker)) {
             untested.push_back(v);
             continue;
         }
@@ -77,7 +79,8 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
     if (variants.size() < 2) return "one variant alone cannot be pooled";
     if (!untested.empty() && (groups.empty() || groups.front().size() < 2))
         return fmt::format(
-            "so few bright pixels make up the image of {} that no test can say whether it agrees with another: more "
+            "so few bright pixels make up the image of {}, or parts of it, that no test can say whether it agrees with "
+            "another: more "
             "--seeds, a larger --size, or a --crop without these pixels help; longer renders may not",
             names_text(variants, untested));
     if (groups.empty() || groups.front().size() < 2)
@@ -209,6 +212,8 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
                 const int size = std::max(*images[a].block_size, *images[b].block_size);
                 pair.agreement_options.block_size = size;
                 pair.agreement_options.significance = significance;
+                // What is found by chance is black, and looks sure of it, where chance has found nothing.
+                pair.agreement_options.black_is_known = !pair.comparable;
                 // Of images that are still noisy the test of the whole says more than a fixed difference of means.
                 pair.agreement_options.mean_tolerance = std::numeric_limits<double>::infinity();
                 BlockAgreement tested = test_agreement(widened_estimate(images[a], size),
@@ -216,11 +221,17 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
                 // In the full image's coordinates, as all places of the report.
                 tested.worst.x += variants[a].sampling.window.x0;
                 tested.worst.y += variants[a].sampling.window.y0;
-                pair.agreement = tested;
+                if (tested.agree() && tested.black_in_a + tested.black_in_b > 0) {
+                    pair.darker = variants[tested.black_in_a > tested.black_in_b ? a : b].name;
+                    pair.not_tested =
+                        fmt::format("'{}' is black in places where chance may have hidden light from it", pair.darker);
+                } else {
+                    pair.agreement = tested;
+                }
             } else if (pair.not_tested.empty()) {
                 pair.not_tested = images[a].of_seeds.size() < 2
                                       ? "one seed tells nothing of its noise"
-                                      : fmt::format("few bright pixels make up the image of '{}'",
+                                      : fmt::format("few bright pixels, or none, make up the image of '{}'",
                                                     variants[images[a].block_size ? b : a].name);
             }
             pairs.push_back(std::move(pair));
@@ -232,7 +243,7 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
                                         std::span<const PairReport> pairs, std::vector<std::string>& notes) {
     const std::size_t rounds = images.front().of_seeds.size();
     Members untested;
-    const std::vector<Members> groups = groups_of_light(variants, images, untested);
+    const std::vector<Members> groups = groups_of_light(variants, images, pairs, untested);
     if (const std::string why_not = why_not_pooled(variants, groups, untested, pairs, rounds); !why_not.empty()) {
         notes.push_back(fmt::format(
             "there is no reference, so no errors are given: {}; --reference or --reference-integrator give one",
@@ -265,7 +276,8 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
 
     if (!untested.empty())
         notes.push_back(
-            fmt::format("the reference has no part of {}: so few bright pixels make up the image that no test can say "
+            fmt::format("the reference has no part of {}: so few bright pixels make up the image, or parts of it, that "
+                        "no test can say "
                         "whether it agrees with the others, against which its errors are measured",
                         names_text(variants, untested)));
     const Variant& first = variants[members.front()];

@@ -86,10 +86,12 @@ class EffectiveCount {
     double squares_ = 0.0;
 };
 
+/// Is how many values a mean takes for its variance to be known.
+constexpr double kMany = 100.0;
+
 /// Returns false if few of the values of a region make up its mean; or, unless the region `is_whole`, the variance of
 /// that.
 bool has_many_values(std::span<const ImageF> renders, const PixelRect& region, int channel, bool is_whole) {
-    constexpr double kMany = 100.0;
     constexpr double kMost = 0.25;  // of all
     constexpr double kManyDeviations = 4.0;
     constexpr double kMostDeviations = 0.01;  // of all
@@ -203,6 +205,13 @@ void pool_variance(ImageEstimate& estimate, int block_size) {
 
 std::optional<int> testable_block_size(std::span<const ImageF> renders, int least) {
     const ImageF& first = renders.front();
+    const auto is_black = [](const ImageF& render) {
+        return std::ranges::all_of(render.pixels, [](float value) { return value == 0.0f; });
+    };
+    if (static_cast<double>(static_cast<std::size_t>(first.width) * static_cast<std::size_t>(first.height) *
+                            renders.size()) < kMany ||
+        std::ranges::all_of(renders, is_black))
+        return std::nullopt;
     for (int size = least;; size *= 2) {
         const bool is_whole = size >= std::max(first.width, first.height);
         const bool all = std::ranges::all_of(blocks(first, size), [&](const PixelRect& block) {
@@ -277,12 +286,22 @@ BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, co
     require_estimates(a, b);
     BlockAgreement result;
     std::vector<double> block_errors;
-    for (const PixelRect& region : regions(a.mean, options.block_size)) {
+    const std::vector<PixelRect> all = regions(a.mean, options.block_size);
+    result.tests = all.size() * static_cast<std::size_t>(a.mean.channels);
+    const double critical = critical_z(options.significance, result.tests);
+    bool has_worst = false;
+    for (const PixelRect& region : all) {
+        const bool has_black_blocks = result.black_in_a + result.black_in_b > 0 && &region == &all.back();
         for (int channel = 0; channel < a.mean.channels; ++channel) {
             const BlockDifference difference = compare(a, b, region, channel, options.block_tolerance);
-            if (result.tests == 0 || std::abs(difference.z) > std::abs(result.worst.z)) result.worst = difference;
-            ++result.tests;
             block_errors.push_back(relative_error(difference));
+            if (!options.black_is_known && std::abs(difference.z) > critical) {
+                if (difference.mean_a == 0.0) ++result.black_in_a;
+                if (difference.mean_b == 0.0) ++result.black_in_b;
+                if (difference.mean_a == 0.0 || difference.mean_b == 0.0 || has_black_blocks) continue;
+            }
+            if (!has_worst || std::abs(difference.z) > std::abs(result.worst.z)) result.worst = difference;
+            has_worst = true;
         }
     }
     const double p = std::erfc(std::abs(result.worst.z) / std::numbers::sqrt2);

@@ -51,6 +51,8 @@ std::string heavy_tail(const VariantReport& variant, const std::string& metric) 
     const auto found = variant.errors.find(metric);
     if (found == variant.errors.end()) return "";
     const SeedValues& errors = found->second;
+    if (errors.deviation() > kMostScatter * errors.mean() && errors.least() < 0.0)
+        return fmt::format("the reference's noise leaves too little of the error of '{}'", variant.name);
     if (errors.deviation() > kMostScatter * errors.mean())
         return fmt::format("one seed of {} holds {} of the error of '{}'", errors.values.size(),
                            human_percent(errors.largest() / static_cast<double>(errors.values.size()) / errors.mean()),

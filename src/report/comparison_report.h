@@ -102,6 +102,7 @@ struct PairReport {
     std::string different_light{};  ///< why they show different light by what was asked for; empty if they do not
     bool comparable = true;         ///< they show the same light, and both find all of it
     std::string not_tested{};       ///< why a test says nothing of them, the end of a sentence; empty if it does
+    std::string darker{};           ///< the one that is black where the other is not, if that is why; else empty
     std::optional<BlockAgreement> agreement{};
     AgreementOptions agreement_options{};
 
@@ -176,6 +177,7 @@ struct ReferenceReport {
     std::string text{};                       ///< a sentence
     std::map<std::string, double> weights{};  ///< weights of variants in a pooled reference
     double noise_rel_mse = kUnknown;          ///< relMSE of the reference's own noise, which squared errors are without
+    double most_noise = kUnknown;             ///< relMSE that this noise may have, where it is not known
     SeedRange seeds{};                        ///< seeds that it was pooled from or rendered with; else none
     std::uint32_t spp = 0;                    ///< samples per pixel of all renders, if it was rendered
     double seconds = kUnknown;                ///< seconds of these renders

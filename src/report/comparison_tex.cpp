@@ -192,12 +192,16 @@ std::string to_tex(const ComparisonReport& report) {
         "With\n"
         "% \\usepackage{{booktabs}} in the preamble, their lines are those of that package.\n"
         "\\providecommand{{\\toprule}}{{\\hline}}\n\\providecommand{{\\midrule}}{{\\hline}}\n"
-        "\\providecommand{{\\bottomrule}}{{\\hline}}\n\n% Means and standard deviations over {} seeds.\n{}",
-        report.program, shown_text(report.command), report.seeds, tex_table(columns_of(variants), variants));
+        "\\providecommand{{\\bottomrule}}{{\\hline}}\n\n% {}\n{}",
+        report.program, shown_text(report.command),
+        report.seeds > 1 ? fmt::format("Means and standard deviations over {} seeds.", report.seeds)
+                         : "One seed, which tells nothing of chance.",
+        tex_table(columns_of(variants), variants));
     if (report.pairs.empty()) return text;
     const auto pairs = pair_rows(report);
     return text + fmt::format(
-                      "\n% Ratios with {:g}% confidence intervals. The percentage behind p is the smallest\n"
+                      "\n% Ratios, with {:g}% confidence intervals where they are known. The percentage behind p is "
+                      "the smallest\n"
                       "% difference of whole images that the test sees with a probability of {:g}. Time is\n"
                       "% {}.\n{}",
                       100.0 * kRatioConfidence, kPower, report.by_wall ? "that on the clock" : "CPU time",

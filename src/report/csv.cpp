@@ -1,5 +1,7 @@
 #include "report/csv.h"
 
+#include "core/shown_text.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,9 +9,10 @@
 namespace etendue {
 
 std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    const std::string shown = shown_text(text);
+    if (shown.find_first_of(",\"") == std::string::npos) return shown;
     std::string quoted(1, '"');
-    for (const char c : text) {
+    for (const char c : shown) {
         if (c == '"') quoted += '"';
         quoted += c;
     }

@@ -5,7 +5,7 @@
 
 namespace etendue {
 
-/// Returns `text` as RFC 4180 has it: in quotes where a comma, a quote or a line's end stands in it.
+/// Returns `text`, as `shown_text` shows it, in quotes where RFC 4180 asks for them: around a comma or a quote.
 [[nodiscard]] std::string csv_field(const std::string& text);
 
 /// Returns nine digits of `value`; nothing of what is not finite.

@@ -1,5 +1,7 @@
 #include "report/plot.h"
 
+#include "core/shown_text.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,7 +55,7 @@ double raised_x(const PlotText& text) {
 
 std::string escaped(const std::string& text) {
     std::string result;
-    for (const char c : text) {
+    for (const char c : shown_text(text)) {
         switch (c) {
             case '<':
                 result += "&lt;";

@@ -6,23 +6,20 @@
 
 namespace etendue {
 
-namespace {
-
-/// Half the interval of a − b; NaN if a variance is unknown.
-double welch_margin(const LogEstimate& a, const LogEstimate& b, double confidence) {
-    const double squared = a.variance + b.variance;
-    // Also where nothing varies, and Student's distribution has no degrees of freedom.
-    if (!(squared > 0.0)) return squared;
-    const double degrees =
-        squared * squared / (a.variance * a.variance / a.degrees + b.variance * b.variance / b.degrees);
-    return student_quantile(confidence, degrees) * std::sqrt(squared);
+LogEstimate product(const LogEstimate& a, const LogEstimate& b) {
+    const double variance = a.variance + b.variance;
+    return {a.value + b.value, variance,
+            variance * variance / (a.variance * a.variance / a.degrees + b.variance * b.variance / b.degrees)};
 }
 
-}  // namespace
-
 RatioInterval ratio_interval(const LogEstimate& a, const LogEstimate& b, double confidence) {
+    // A quotient's variance and degrees of freedom are those of a product.
+    const LogEstimate spread = product(a, b);
     const double difference = a.value - b.value;
-    const double margin = welch_margin(a, b, confidence);
+    // Where nothing varies, Student's distribution has no degrees of freedom.
+    const double margin = spread.variance > 0.0
+                              ? student_quantile(confidence, spread.degrees) * std::sqrt(spread.variance)
+                              : spread.variance;
     return {std::exp(difference), std::exp(difference - margin), std::exp(difference + margin)};
 }
 

@@ -21,6 +21,9 @@ struct RatioInterval {
     double high = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Returns the estimate of the product of two numbers that were measured independently.
+[[nodiscard]] LogEstimate product(const LogEstimate& a, const LogEstimate& b);
+
 /// The ratio exp(a − b) and its interval exp(a − b ± t e), with e² the sum of the variances and t the two-sided
 /// quantile of Student's distribution with e⁴ / Σ(variance² / degrees) degrees of freedom (B. L. Welch, "The
 /// generalization of 'Student's' problem when several different population variances are involved", Biometrika 34,

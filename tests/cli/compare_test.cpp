@@ -505,6 +505,23 @@ TEST_F(Compare, MeasuresAgainstAFileOrAnotherIntegrator) {
         << "the reference is made by an algorithm under test";
 }
 
+// A file that says nothing of its noise may be as noisy as what is measured against it.
+TEST_F(Compare, RatiosHaveNoIntervalsWhereTheReferenceMayDecideThem) {
+    const std::string box = (folder_ / "box").string();
+    ASSERT_EQ(run_etendue({"render", box, "--spp", "64", "-o", "box.exr", "--float", "--quiet"}, work_).exit_code, 0);
+    const auto has_interval = [&](const char* spp) {
+        EXPECT_EQ(compare({"--spp", spp, "--seeds", "3", "--reference", "box.exr", "--integrators", "path,naive",
+                           "--strategies-depth", "0"})
+                      .exit_code,
+                  0);
+        return !report()["pairs"][0]["intervals"]["relmse-trimmed"][0].is_null();
+    };
+    EXPECT_TRUE(has_interval("1"));
+    EXPECT_EQ(notes().find("what tells the reference"), std::string::npos) << notes();
+    EXPECT_FALSE(has_interval("64"));
+    EXPECT_NE(notes().find("what tells the reference from the mean of all seeds"), std::string::npos) << notes();
+}
+
 TEST_F(Compare, AReferenceFileIsLookedAtBeforeAnythingIsRendered) {
     write_grey("nan.exr", std::numeric_limits<float>::quiet_NaN());
     write_grey("infinite.exr", std::numeric_limits<float>::infinity());

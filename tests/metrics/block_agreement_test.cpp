@@ -152,6 +152,25 @@ TEST(BlockAgreement, WithoutVarianceOnlyTheToleranceCounts) {
     EXPECT_TRUE(test_agreement(a, b, {.block_tolerance = 2e-3}).agree());
 }
 
+// Light that is found by chance is missing where chance has found none, and looks as if it were known to be.
+TEST(BlockAgreement, LeavesOutWhatIsBlackByChance) {
+    constexpr AgreementOptions kOptions{.block_size = 4, .mean_tolerance = 1.0, .black_is_known = false};
+    const ImageEstimate lit = constant_estimate(8, 8, 1.0f, 0.01f);
+    ImageEstimate partly = lit;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) partly.mean.pixel(x, y)[0] = partly.variance.pixel(x, y)[0] = 0.0f;
+    AgreementOptions known = kOptions;
+    known.black_is_known = true;
+    EXPECT_FALSE(test_agreement(partly, lit, known).agree());
+    const BlockAgreement result = test_agreement(partly, lit, kOptions);
+    EXPECT_TRUE(result.agree()) << result.str();
+    EXPECT_EQ(result.black_in_a, 1u);
+    EXPECT_EQ(test_agreement(lit, partly, kOptions).black_in_b, 1u);
+    partly.mean.pixel(7, 7)[0] = 3.0f;
+    EXPECT_FALSE(test_agreement(partly, lit, kOptions).agree()) << "it differs elsewhere, too";
+    EXPECT_EQ(test_agreement(partly, partly, kOptions).black_in_a, 0u) << "both are black there";
+}
+
 TEST(BlockAgreement, WhatIsNoNumberDoesNotAgree) {
     const ImageEstimate a = constant_estimate(4, 4, 1.0f, 0.1f);
     ImageEstimate b = a;
@@ -210,7 +229,12 @@ TEST(TestableBlockSize, GrowsUntilManyValuesCount) {
     // 8 of them in 16 × 16 pixels of two renders, 32 in 32 × 32, 128 in 64 × 64.
     EXPECT_EQ(testable_block_size(std::vector<ImageF>(2, render(8)), 16), 64);
     EXPECT_FALSE(testable_block_size(std::vector<ImageF>(2, render(32)), 16));
-    EXPECT_EQ(testable_block_size(std::vector<ImageF>(2, ImageF(64, 64, 1)), 16), 16) << "black";
+    EXPECT_FALSE(testable_block_size(std::vector<ImageF>(2, ImageF(64, 64, 1)), 16)) << "black";
+    std::vector<ImageF> few(3, ImageF(11, 3, 1));
+    for (ImageF& image : few) image.pixels.assign(image.pixels.size(), 1.0f);
+    EXPECT_FALSE(testable_block_size(few, 16)) << "99 values";
+    few.push_back(few.front());
+    EXPECT_TRUE(testable_block_size(few, 16));
 }
 
 TEST(TestableBlockSize, GrowsUntilMoreThanAFewValuesVary) {

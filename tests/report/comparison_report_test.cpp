@@ -110,6 +110,8 @@ TEST(HeavyTail, SaysWhatHoldsTheError) {
     VariantReport variant{.name = "path", .errors = {{"relmse", {{1.0, 1.0, 10.0, 0.0}}}}};
     EXPECT_EQ(heavy_tail(variant, "relmse"), "one seed of 4 holds 83.3% of the error of 'path'");
     EXPECT_EQ(heavy_tail(variant, "mse"), "") << "not measured";
+    variant.errors["relmse"].values[3] = -0.1;
+    EXPECT_EQ(heavy_tail(variant, "relmse"), "the reference's noise leaves too little of the error of 'path'");
     variant.errors = {{"relmse", {{1.0, 1.1}}}, {"relmse-trimmed", {{0.8, 0.8}}}, {"mse", {{2.0, 2.1}}}};
     const std::string few = "0.1% of the values hold 23.8% of the relMSE of 'path'";
     EXPECT_EQ(heavy_tail(variant, "relmse"), few);

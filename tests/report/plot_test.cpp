@@ -135,6 +135,10 @@ TEST(RatioInterval, IsWelchs) {
     EXPECT_NEAR(interval.high, std::exp(1.0 + 2.446912 * 0.2), 1e-5);
     EXPECT_NEAR(interval.low * interval.high, std::exp(2.0), 1e-9);
     EXPECT_TRUE(std::isnan(ratio_interval({1.0}, {0.0, 0.02, 3.0}).low)) << "one measurement tells no variance";
+    const LogEstimate area = product({1.0, 0.02, 3.0}, {2.0, 0.02, 3.0});
+    EXPECT_EQ(area.value, 3.0);
+    EXPECT_DOUBLE_EQ(area.variance, 0.04);
+    EXPECT_DOUBLE_EQ(area.degrees, 6.0);
     EXPECT_EQ(ratio_interval({1.0, 0.0, 3.0}, {1.0, 0.0, 3.0}).high, 1.0) << "nothing varies";
 }
 
