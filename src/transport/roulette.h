@@ -12,26 +12,38 @@ namespace etendue {
 /// Rays after which a path counts as long.
 inline constexpr int kLongPath = 64;
 
-/// Returns the largest share of paths of `rays` rays that Russian roulette lets live. Lossless ones live on as long as
-/// paths usually get; between perfect mirrors they would do so until the longest path allowed.
-[[nodiscard]] inline float most_survival(int rays) {
-    return rays < kLongPath ? 1.0f : 0.95f;
+/// Says how fast the largest share of living paths falls: to the power of 1/2 where a path is a walk, to the first
+/// power where it is a subpath, all of whose vertices are kept and connected.
+enum class LongPaths { Walk, Subpath };
+
+/// Returns the largest share of paths of `rays` rays that Russian roulette lets live, however much light is left.
+/// The number n of scatterings after which light leaves a dense body that absorbs nothing has a density that falls as
+/// n^(-3/2) (Feller, "An Introduction to Probability Theory and Its Applications", vol. 1, III.4). Shares of
+/// 1 - 1 / (2n) let the weight of what lives grow as the root of n, so that its variance grows as a logarithm; with one
+/// constant share, the variance has no bound. Subpaths pay for each vertex: with shares of 1 - 1 / n the mean number of
+/// vertices does not grow, and the variance grows as the root of the longest walk. Paths that find no way out are ended
+/// soon after kLongestFair rays.
+[[nodiscard]] inline float most_survival(LongPaths paths, int rays) {
+    constexpr int kLongestFair = 1024 * kLongPath;
+    if (rays < kLongPath) return 1.0f;
+    if (rays >= kLongestFair) return 0.95f;
+    return 1.0f - (paths == LongPaths::Walk ? 0.5f : 1.0f) / static_cast<float>(rays);
 }
 
-/// Returns the chance with which Russian roulette lets a path of `rays` rays from the eye live, of whose light the
-/// share `throughput` arrives. The root spares where all light has come a long way, and little of it arrives, what a
-/// chance in proportion would add to the noise; docs/integrators.md has the figures.
+/// Returns the chance with which Russian roulette lets a path live that may go on with the chance `most`, of whose
+/// light the share `throughput` arrives at the eye. The root spares where all light has come a long way, and little of
+/// it arrives, what a chance in proportion would add to the noise; docs/integrators.md has the figures.
 template <typename T>
-[[nodiscard]] inline T eye_path_survival(const T& throughput, int rays) {
-    return min(T(most_survival(rays)), sqrt(throughput));
+[[nodiscard]] inline T eye_path_survival(const T& throughput, float most) {
+    return min(T(most), sqrt(throughput));
 }
 
-/// Returns the chance with which Russian roulette lets a path of `rays` rays from a light live, of whose light the
-/// share `throughput` is left. The root is worse for these paths on as many scenes as it is better
+/// Returns the chance with which Russian roulette lets a path from a light live that may go on with the chance `most`,
+/// of whose light the share `throughput` is left. The root is worse for these paths on as many scenes as it is better
 /// (docs/integrators.md).
 template <typename T>
-[[nodiscard]] inline T light_path_survival(const T& throughput, int rays) {
-    return min(T(most_survival(rays)), throughput);
+[[nodiscard]] inline T light_path_survival(const T& throughput, float most) {
+    return min(T(most), throughput);
 }
 
 /// Holds how many rays of each subpath of a sample Russian roulette spares.
@@ -62,7 +74,7 @@ inline constexpr float kSmallestContribution = 1.0f / 1024.0f;
 /// contributes `contribution`. Small ones live on as rarely as they are small, with one and the same contribution:
 /// trees stay small, and what they show on average is what they would show in full.
 [[nodiscard]] inline float branch_survival(float contribution, int rays) {
-    return std::min(most_survival(rays), contribution / kSmallestContribution);
+    return std::min(most_survival(LongPaths::Walk, rays), contribution / kSmallestContribution);
 }
 
 }  // namespace etendue

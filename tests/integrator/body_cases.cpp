@@ -279,6 +279,13 @@ std::vector<ClosedFormCase> lossless_cases() {
     add(candle, ball({0.0f, 0.0f, 0.0f}, 0.9f), wax);
     cases.push_back(lossless("wax", candle, 5e-3, rough));
 
+    // Light leaves it after a number of scatterings with a long tail, 10,000 among them.
+    MaterialDesc snow;
+    snow.override_model = SubsurfaceDesc{.albedo = Rgb(1.0f), .radius = Rgb(0.01f), .ior = 1.0f};
+    SceneDesc snowball = empty_in_environment();
+    add(snowball, ball({0.0f, 0.0f, 0.0f}, 0.9f), snow);
+    cases.push_back(lossless("snowball", snowball, 1e-3, kFindAllBounces));
+
     MaterialDesc partly;
     partly.metallic = 0.3f;
     partly.roughness = 0.3f;

@@ -52,14 +52,17 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         const auto resolve_if_full = [&](ShadowRayQueue& connections) {
             if (connections.is_full()) connections.resolve(world, job, samples_, found_, tile, counters);
         };
+        const std::function<void()> resolve_full_between = [&] {
+            resolve_if_full(vertex_connections_);
+            resolve_if_full(wide_vertex_connections_);
+        };
         for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlockLanes) {
             const std::size_t end = std::min(begin + kBlockLanes, to_light_.size());
             if (world.traits().has_sampled_lights) connect_to_lights(bdpt, begin, end);
             resolve_if_full(light_connections_);
             resolve_if_full(wide_light_connections_);
-            connect_to_vertices(bdpt, begin, end);
-            resolve_if_full(vertex_connections_);
-            resolve_if_full(wide_vertex_connections_);
+            connect_to_vertices(bdpt, begin, end, resolve_full_between);
+            resolve_full_between();
         }
         to_camera_.collect(bdpt, SubpathEnd::AtLight, light_);
         stamp(job.profile, Stage::Numbers);

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -81,7 +82,11 @@ class BdptWave final : public IntegratorScratch {
     /// Connects light vertices [first, last) to points on the lens that are sampled for them: t = 1.
     void connect_to_camera(const BdptJob& job, std::size_t first, std::size_t last);
     /// Connects eye vertices [first, last) to light vertices: s > 1, t > 1.
-    void connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last);
+    /// `resolve_full` resolves the queues of these connections that are full.
+    void connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last,
+                             const std::function<void()>& resolve_full);
+    /// Weighs and queues what is in `between_`.
+    void weigh_between(const BdptJob& job);
     /// Draws `count` vertices from the cache for `eye`, in place of all that the cache has of an average light subpath.
     void find_cached(const BdptJob& job, const ConnectibleVertex& eye, int count);
     void find(const BdptJob& job, const ConnectibleVertex& eye, const DiffuseEnd& eye_end,
@@ -122,6 +127,7 @@ class BdptWave final : public IntegratorScratch {
     // Of the block at hand.
     std::vector<ToLight> to_lights_;
     std::vector<ToCamera> to_cameras_, wide_to_cameras_;
+    static constexpr std::size_t kMostBetween = 4096;
     std::vector<Between> between_;
     std::vector<LightReceiver> receivers_;
     std::vector<Vec2f> choosing_;  ///< numbers for the choice of a light

@@ -212,18 +212,28 @@ void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const 
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
 }
 
-void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last) {
-    WaveProfile* const profile = job.job.profile;
-    between_.clear();
+void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last,
+                                   const std::function<void()>& resolve_full) {
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& eye = to_light_[v];
         const bool has_cache = job.is_shared(eye);
         const DiffuseEnd& eye_end = eye_.vertices().diffuse_end(eye);
-        for (const LightVertices::Candidate& own : light_vertices_.own(eye.slot))
+        for (const LightVertices::Candidate& own : light_vertices_.own(eye.slot)) {
+            // In dense bodies a subpath may have thousands of vertices.
+            if (between_.size() >= kMostBetween) {
+                weigh_between(job);
+                resolve_full();
+            }
             if (!(has_cache && own.is_shared)) find(job, eye, eye_end, own.vertex, 1.0f);
+        }
         if (has_cache) find_cached(job, eye, job.settings.cached_connections);
     }
     weigh_wide_between(job);
+    weigh_between(job);
+}
+
+void BdptWave::weigh_between(const BdptJob& job) {
+    WaveProfile* const profile = job.job.profile;
     stamp(profile, Stage::Mis);
     for (Between& connection : between_) {
         connection.at_eye =
@@ -235,6 +245,7 @@ void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::s
     stamp(profile, Stage::Material);
     for (const Between& connection : between_)
         if (!is_black(connection.at_light.f_cos)) weigh(job, connection);
+    between_.clear();
     stamp(profile, Stage::Mis);
 }
 
