@@ -9,13 +9,23 @@
 
 namespace etendue {
 
+namespace {
+
+/// Returns one minus the cosine of half of `angle`, of a disk that has directions in single precision.
+float height_of(float angle) {
+    constexpr float kSmallest = 1e-5f;
+    const float sine = std::sin(0.25f * std::max(angle, kSmallest));
+    return 2.0f * sine * sine;
+}
+
+}  // namespace
+
 SunLight::SunLight(const Vec3f& direction, const Rgb& irradiance, float angle)
     : direction_(direction),
-      // A disk that single precision closes still has directions.
-      cos_max_(std::min(std::cos(0.5f * angle), kOneMinusEpsilon)),
-      pdf_(cone_pdf_solid_angle({0.0f, 0.0f, 1.0f}, cos_max_)),
-      // The mean cosine to the middle, over a cap of the sphere, is (1 + cos_max) / 2.
-      radiance_(irradiance * (2.0f / (1.0f + cos_max_) * pdf_)) {}
+      height_(height_of(angle)),
+      pdf_(0.5f * kInvPi / height_),
+      // The mean cosine to the middle, over a cap of the sphere, is (1 + cosine at its edge) / 2.
+      radiance_(irradiance * (2.0f / (2.0f - height_) * pdf_)) {}
 
 Rgb SunLight::radiance(const Vec3f& direction) const {
     return pdf_solid_angle(direction) > 0.0f ? radiance_ : Rgb();
@@ -23,11 +33,11 @@ Rgb SunLight::radiance(const Vec3f& direction) const {
 
 float SunLight::pdf_solid_angle(const Vec3f& direction) const {
     // By the chord: in single precision, the cosine of a small angle is that of others, too.
-    return length_squared(direction + direction_) <= 2.0f * (1.0f - cos_max_) ? pdf_ : 0.0f;
+    return length_squared(direction + direction_) <= 2.0f * height_ ? pdf_ : 0.0f;
 }
 
 Vec3f SunLight::sample_direction(Vec2f u) const {
-    return normalize(Frame::from_normal(direction_).to_world(square_to_cone(u, cos_max_)));
+    return normalize(Frame::from_normal(direction_).to_world(square_to_cone_of_height(u, height_)));
 }
 
 LightSample SunLight::sample(const Vec3f&, Vec2f u) const {

@@ -37,9 +37,9 @@ class SunLight {
     [[nodiscard]] Vec3f sample_direction(Vec2f u) const;
 
     Vec3f direction_;
-    float cos_max_;  ///< cosine of half the angle
-    float pdf_;      ///< 1/sr, of each direction within the disk
-    Rgb radiance_;   ///< W/(m² sr)
+    float height_;  ///< one minus the cosine of half the angle
+    float pdf_;     ///< 1/sr, of each direction within the disk
+    Rgb radiance_;  ///< W/(m² sr)
 };
 
 }  // namespace etendue

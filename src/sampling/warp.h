@@ -73,12 +73,17 @@ template <typename T = float>
     return {r * phi.cos, r * phi.sin, z};
 }
 
-/// Maps the unit square to the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
-[[nodiscard]] inline Vec3f square_to_cone(Vec2f u, float cos_max) {
-    const float one_minus_z = u.y * (1.0f - cos_max);
+/// Maps the unit square to the cone of directions around +z whose half angle has one minus the cosine `height`, > 0,
+/// uniformly. In single precision, cosines of small angles are those of others, too.
+[[nodiscard]] inline Vec3f square_to_cone_of_height(Vec2f u, float height) {
+    const float one_minus_z = u.y * height;
     const float r = std::sqrt(std::max(0.0f, one_minus_z * (2.0f - one_minus_z)));
     const SinCos phi = sin_cos_turns(u.x);
     return {r * phi.cos, r * phi.sin, 1.0f - one_minus_z};
+}
+/// Maps the unit square to the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
+[[nodiscard]] inline Vec3f square_to_cone(Vec2f u, float cos_max) {
+    return square_to_cone_of_height(u, 1.0f - cos_max);
 }
 [[nodiscard]] inline float cone_pdf_solid_angle(const Vec3f& w, float cos_max) {
     return w.z >= cos_max ? kInvPi * 0.5f / (1.0f - cos_max) : 0.0f;

@@ -92,6 +92,30 @@ TEST(Sheen, IsFiniteWhereRoundingTakesTheCosineAboveOne) {
     EXPECT_TRUE(is_finite(value.f_cos));
 }
 
+// What the base gets is what the sheen leaves, also where its albedo begins to be held below one: at 87 degrees if it
+// is smooth.
+TEST(Sheen, PassesWhatItDoesNotReflect) {
+    for (const float alpha : {0.01f, 0.04f, 0.3f})
+        for (float degrees = 84.0f; degrees < 89.6f; degrees += 0.125f) {
+            const Sheen sheen{Rgb(1.0f), alpha};
+            const float cos_o = std::cos(degrees * kPi / 180.0f);
+            const Vec3f wo = direction_at(cos_o);
+            constexpr int kSteps = 100;
+            double reflected = 0.0;
+            for (int i = 0; i < kSteps; ++i)
+                for (int j = 0; j < kSteps; ++j) {
+                    const float t = (static_cast<float>(i) + 0.5f) / kSteps;
+                    const float z = t * t * t;
+                    const float phi = kPi * (static_cast<float>(j) + 0.5f) / kSteps;
+                    const float sine = std::sqrt(1.0f - z * z);
+                    const BsdfValue value = sheen.evaluate(wo, {sine * std::cos(phi), sine * std::sin(phi), z});
+                    reflected += static_cast<double>(value.f_cos.g * 3.0f * t * t) / kSteps * 2.0 *
+                                 static_cast<double>(kPi) / kSteps;
+                }
+            EXPECT_NEAR(reflected, 1.0 - static_cast<double>(sheen.passed(cos_o)), 0.01) << degrees << ", " << alpha;
+        }
+}
+
 // Every distribution of normals does: seen from above, the facets cover the surface once.
 TEST(Sheen, FibresCoverTheSurfaceOnce) {
     for (const float alpha : {0.05f, 0.3f, 1.0f}) {

@@ -14,7 +14,7 @@ namespace etendue::test {
 
 namespace {
 
-constexpr float kAngles[] = {1e-5f, 0.00918f, 0.12f, 1.0f, 3.0f};
+constexpr float kAngles[] = {1e-5f, 2e-4f, 0.00918f, 0.12f, 1.0f, 3.0f};
 
 // The same as that of parallel light, while no part of the disk is below the horizon.
 TEST(SunLight, IrradianceIsThatOfAPointSun) {
