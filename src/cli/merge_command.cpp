@@ -16,6 +16,7 @@
 #include "session/interrupt.h"
 #include "session/library_versions.h"
 #include "session/merge_parts.h"
+#include "session/output_checks.h"
 #include "session/phase_timer.h"
 #include "session/usage_error.h"
 
@@ -121,6 +122,7 @@ void write_merged_image(const MergeArguments& arguments, const OutputPaths& path
         log_warning("note: {}: {}", arguments.output, *note);
     require_writable(paths.png);
     require_writable(paths.json);
+    require_no_layer_of_another(paths.exr);
     const PixelDepth depth = arguments.depth.value_or(image.depth);
     if (image.frame.aces_container && depth == PixelDepth::Float)
         throw UsageError(
@@ -129,6 +131,7 @@ void write_merged_image(const MergeArguments& arguments, const OutputPaths& path
     std::vector<std::filesystem::path> layers;
     for (const std::string& name : layer_file_names(paths.exr, image)) layers.push_back(paths.exr.parent_path() / name);
     require_parts_kept(arguments, layers);
+    for (const std::filesystem::path& layer : layers) require_free(layer, {arguments.output, {}});
     image.statistics.libraries = library_versions();
     const std::vector<std::string> earlier = write_image_files(paths, image, ColorConfig::from_environment(), depth);
     if (arguments.quiet) return;

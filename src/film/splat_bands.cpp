@@ -3,6 +3,7 @@
 #include "film/reach.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace etendue {
 
@@ -12,7 +13,7 @@ SplatBands::SplatBands(std::span<const std::vector<Splat>> lists, const PixelRec
     const int bands = std::min(window.height(), kBandsPerThread * threads.thread_count());
     std::vector<std::uint32_t> band_of_row;
     for (int band = 0; band <= bands; ++band) {
-        edges_.push_back(window.y0 + window.height() * band / bands);
+        edges_.push_back(window.y0 + static_cast<int>(static_cast<std::int64_t>(window.height()) * band / bands));
         band_of_row.resize(static_cast<std::size_t>(edges_.back() - window.y0), static_cast<std::uint32_t>(band - 1));
     }
     splats_.resize(lists.size() * count());

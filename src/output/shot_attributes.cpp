@@ -17,12 +17,15 @@ std::uint32_t two_digits(std::int64_t number) {
 
 }  // namespace
 
-ImageRational frames_per_second(double fps) {
+std::optional<ImageRational> frames_per_second(double fps) {
+    constexpr double kMost = 1e6;
+    if (!(fps >= 1e-3 && fps <= kMost)) return std::nullopt;
     const double whole = std::round(fps);
-    if (fps == whole) return {static_cast<int>(whole), 1};
+    if (fps == whole) return ImageRational{static_cast<int>(whole), 1};
     constexpr double kTolerance = 1e-3;  // 23.976 is meant for 24000/1001
-    if (std::abs(whole / 1.001 - fps) < kTolerance) return {static_cast<int>(whole) * 1000, 1001};
-    return {static_cast<int>(std::lround(fps * 1000.0)), 1000};
+    if (whole >= 1.0 && std::abs(whole / 1.001 - fps) < kTolerance)
+        return ImageRational{static_cast<int>(whole) * 1000, 1001};
+    return ImageRational{static_cast<int>(std::lround(fps * 1000.0)), 1000};
 }
 
 std::optional<ImageTimeCode> time_code(int frame, double fps) {

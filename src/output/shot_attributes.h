@@ -7,8 +7,9 @@
 
 namespace etendue {
 
-/// Returns `fps` as a ratio: whole, a whole number by 1.001 as television has it, or in thousandths.
-[[nodiscard]] ImageRational frames_per_second(double fps);
+/// Returns `fps` as a ratio: whole, a whole number by 1.001 as television has it, or in thousandths; nothing below one
+/// of these, or above a million.
+[[nodiscard]] std::optional<ImageRational> frames_per_second(double fps);
 
 /// Returns the SMPTE time code of frame number `frame`, counted without dropping; nothing for frames below 0, beyond a
 /// day, or of more than 30 in a second, which time codes do not count.

@@ -50,10 +50,13 @@ struct BrightContribution {
 
 /// A file that the image depends on.
 struct InputFile {
-    std::string path;           ///< from the scene's directory, or absolute
-    std::uint64_t size = 0;     ///< bytes
-    std::int64_t modified = 0;  ///< nanoseconds since 1970, UTC; 0: changed while it was read
-    std::string content;        ///< hash, in hexadecimal digits
+    /// Stands in `modified` for a file that changed while it was read. 0 is a time that archives give to files.
+    static constexpr std::int64_t kChanged = -1;
+
+    std::string path;                  ///< from the scene's directory, or absolute
+    std::uint64_t size = 0;            ///< bytes
+    std::int64_t modified = kChanged;  ///< nanoseconds since 1970, UTC
+    std::string content;               ///< hash, in hexadecimal digits
 };
 
 struct RenderStatistics {

@@ -209,6 +209,7 @@ std::string to_text(const ImageDescription& description) {
         {"frame", to_object(description.frame)},
         {"aovs", std::move(aovs)},
         {"aov_layout", static_cast<int>(description.aov_layout)},
+        {"has_halves", description.has_halves},
         {"buckets", {description.buckets.count, description.buckets.first_light, description.buckets.first_value}},
         {"clamp_indirect", description.clamp_indirect},
         {"removed_light", description.removed_light ? Json(*description.removed_light) : Json()},
@@ -228,6 +229,7 @@ ImageDescription parse_description(const std::string& text, const LayerLayout& l
         const Json& buckets = json.at("buckets");
         description.buckets = {buckets.at(0).get<std::size_t>(), buckets.at(1).get<std::size_t>(),
                                buckets.at(2).get<std::size_t>()};
+        json.at("has_halves").get_to(description.has_halves);
         json.at("clamp_indirect").get_to(description.clamp_indirect);
         if (const Json& layer = json.at("removed_light"); !layer.is_null())
             description.removed_light = layer.get<std::size_t>();

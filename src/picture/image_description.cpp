@@ -5,6 +5,7 @@
 #include "scene/canonical_settings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -73,14 +74,15 @@ void describe_lens(const SceneDesc& scene, OutputFrame& frame) {
     if (!(camera->lens_radius > 0.0f)) return;
     frame.focus_distance = camera->focus_distance;
     constexpr float kMillimetresPerMetre = 1000.0f;
-    frame.f_number = camera->focal_length / (2.0f * camera->lens_radius * kMillimetresPerMetre);
+    const float f_number = camera->focal_length / (2.0f * camera->lens_radius * kMillimetresPerMetre);
+    if (std::isfinite(f_number)) frame.f_number = f_number;
 }
 
 }  // namespace
 
 ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) {
     const RenderSettings& settings = scene.settings;
-    ImageDescription description{.frame = {}, .aovs = plan.outputs, .statistics = {}};
+    ImageDescription description{.frame = {}, .aovs = plan.outputs, .has_halves = plan.has_halves, .statistics = {}};
     OutputFrame& frame = description.frame;
     frame.working_space = settings.color.working_space;
     frame.display = settings.color.display;
@@ -191,6 +193,19 @@ std::optional<std::string> few_buckets(const RenderStatistics& statistics) {
                        statistics.robust_buckets, statistics.robust_filled);
 }
 
+namespace {
+
+/// Returns whether all pixels have the same number of samples in `film` and in `half`.
+bool have_one_share(const Film& film, const Film& half) {
+    const auto is_even = [](const Film& of) {
+        const auto [least, most] = std::ranges::minmax(of.sums(), {}, &PixelSum::samples);
+        return least.samples == most.samples;
+    };
+    return is_even(film) && is_even(half);
+}
+
+}  // namespace
+
 void resolve_layers(ImageDescription& description, const RenderState& state) {
     OutputFrame& frame = description.frame;
     frame.layers.clear();
@@ -201,10 +216,13 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
             frame.layers.push_back(resolve_layer(state.film, aov));
     }
     // Means of half of the samples are no halves of a median of means.
-    const bool has_halves = state.every_other_pass && state.every_other_spp > 0 && description.buckets.count == 0;
+    const bool has_halves = description.has_halves && state.every_other_pass && state.every_other_spp > 0 &&
+                            state.every_other_spp < state.spp_done && description.buckets.count == 0;
     if (!has_halves || frame.layers.empty()) return;
-    // Each pixel has a share of its own where passes were for some pixels, or one was cut short.
-    const bool is_uneven = !state.adaptive.is_uniform() || state.pass_size > 0;
+    // Each pixel has a share of its own where passes were for some pixels, one was cut short, or parts were of
+    // different samples.
+    const bool is_uneven =
+        !state.adaptive.is_uniform() || state.pass_size > 0 || !have_one_share(state.film, *state.every_other_pass);
     const std::optional<Film> evened =
         is_uneven ? std::optional(state.film.as_half(*state.every_other_pass)) : std::nullopt;
     const Film& half = evened ? *evened : *state.every_other_pass;

@@ -22,6 +22,7 @@ struct ImageDescription {
     OutputFrame frame;            ///< without pixels, layers, window and counts, which the film knows
     std::vector<AovOutput> aovs;  ///< the layers that the film has
     AovLayout aov_layout = AovLayout::Layers;
+    bool has_halves = false;      ///< layers of half of the samples were asked for, too
     BucketLayers buckets{};       ///< layers of the median of means that the image is; none if it is the mean
     float clamp_indirect = 0.0f;  ///< the limit of indirect contributions; 0 for none
     std::optional<std::size_t> removed_light{};  ///< the light layer of what that took away

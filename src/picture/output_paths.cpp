@@ -45,7 +45,7 @@ bool is_partial(const std::filesystem::path& output) {
 }
 
 void require_writable(const std::filesystem::path& file) {
-    const std::filesystem::path parent = file.parent_path();
+    const std::filesystem::path parent = written_file(file).parent_path();
     const std::filesystem::path directory = parent.empty() ? "." : parent;
     if (!std::filesystem::is_directory(directory))
         throw IoError(fmt::format("cannot write {}: there is no directory {}", file.string(), directory.string()));

@@ -125,6 +125,10 @@ struct MetadataSettings {
 /// Stands in `RenderSettings::animations` for no animation.
 inline constexpr std::string_view kNoAnimation = "none";
 
+/// The farthest that anything may be from the scene's origin along an axis, metres: squares of distances between any
+/// two places, and rays from outside all of them, stay far within single precision.
+inline constexpr double kFarthest = 1e15;
+
 /// Places a camera, in the world that the scene's file describes.
 struct CameraPlace {
     Vec3d eye{0.0};

@@ -9,9 +9,6 @@ namespace etendue {
 
 namespace {
 
-/// The farthest that anything may be from the scene's origin along an axis, metres: squares of distances between any
-/// two places, and rays from outside all of them, stay far within single precision.
-constexpr double kFarthest = 1e15;
 /// The farthest that any place of the scene may be from the origin of a mesh that has a transform of its own, in the
 /// mesh's units: Embree takes rays there, and takes none from beyond 1.8e18.
 constexpr double kFarthestInMesh = 1e18;

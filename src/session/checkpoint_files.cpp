@@ -218,6 +218,8 @@ std::optional<Checkpoint> read_sums(const std::filesystem::path& file, const Che
         if (!is_of(kept, expected) || static_cast<std::int64_t>(kept.state.spp_done) > most_spp) return std::nullopt;
         simplify(kept.state, expected);
         return kept;
+    } catch (const RefusedCheckpoint&) {
+        // Of another version, as sums of other renders are.
     } catch (const DamagedCheckpoint& broken) {
         if (!quiet) log_warning("warning: {}; the image begins anew", broken.what());
     } catch (const IoError& failure) {

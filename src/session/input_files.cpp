@@ -63,8 +63,11 @@ std::vector<InputFile> stamp_inputs(const SceneDesc& scene, fs::file_time_type s
     files.reserve(scene.inputs.size());
     for (const fs::path& input : scene.inputs) {
         const Stamp stamp = stamp_of(input).value_or(Stamp{});
-        const bool is_known = stamp.modified < nanoseconds(started);
-        files.push_back({input_name(input, scene.directory), stamp.size, is_known ? stamp.modified : 0, {}});
+        // Times to come are no times of a change.
+        const bool is_known =
+            stamp.modified < nanoseconds(started) || stamp.modified > nanoseconds(fs::file_time_type::clock::now());
+        files.push_back(
+            {input_name(input, scene.directory), stamp.size, is_known ? stamp.modified : InputFile::kChanged, {}});
     }
     return files;
 }
@@ -73,7 +76,7 @@ void hash_inputs(const SceneDesc& scene, std::span<InputFile> files) {
     for (std::size_t i = 0; i < files.size(); ++i) {
         InputFile& file = files[i];
         file.content = hex(hash_file(scene.inputs[i]));
-        if (stamp_of(scene.inputs[i]) != Stamp{file.size, file.modified}) file.modified = 0;
+        if (stamp_of(scene.inputs[i]) != Stamp{file.size, file.modified}) file.modified = InputFile::kChanged;
     }
 }
 
@@ -81,7 +84,7 @@ std::optional<std::string> what_changed(const InputFile& file, const fs::path& d
     const fs::path path = canonical_directory(directory) / file.path;
     const std::optional<Stamp> now = stamp_of(path);
     if (!now) return fmt::format("input {} is missing", path.filename().string());
-    if (file.modified == 0)
+    if (file.modified == InputFile::kChanged)
         return fmt::format("input {} changed while the image was made of it", path.filename().string());
     if (*now == Stamp{file.size, file.modified}) return std::nullopt;
     try {

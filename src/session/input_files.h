@@ -19,10 +19,10 @@ void require_files_kept(std::string_view option, std::span<const std::filesystem
                         std::vector<std::filesystem::path> inputs);
 
 /// Name, size and time of each input of `scene`, without content. One that has changed since `started`, when the first
-/// of them was read, has time 0: nobody knows what of it was read.
+/// of them was read, has the time kChanged: nobody knows what of it was read.
 [[nodiscard]] std::vector<InputFile> stamp_inputs(const SceneDesc& scene, std::filesystem::file_time_type started);
 
-/// Fills in the content of `files`, the stamps of the inputs of `scene`. A file that is another by now gets time 0.
+/// Fills in the content of `files`, the stamps of the inputs of `scene`. A file that is another by now gets kChanged.
 /// Throws IoError if one cannot be read.
 void hash_inputs(const SceneDesc& scene, std::span<InputFile> files);
 

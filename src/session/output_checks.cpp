@@ -25,6 +25,11 @@ OutputPaths paths_of(const PlannedOutput& planned) {
     return OutputPaths::beside(planned.output, planned.request.overrides.png);
 }
 
+/// Returns the layers that are written into files of their own.
+std::vector<std::string> layers_of(const PlannedOutput& planned) {
+    return layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
+}
+
 void require_all_writable(const OutputPaths& paths) {
     for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
         if (!path.empty()) require_writable(path);
@@ -42,7 +47,20 @@ void require_no_settings(const std::filesystem::path& statistics, const std::fil
                         statistics.string()));
 }
 
-/// Throws SceneError if the image has the name of another one's layer: of NAME, if it is NAME.LAYER.
+/// Throws if the image of strategies cannot be written, or would show nothing.
+void check_strategies(const PlannedOutput& planned) {
+    const std::filesystem::path& strategies = planned.request.strategies.output;
+    const OutputPaths pyramid = OutputPaths::beside(strategies);
+    require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()), std::array{pyramid.exr, pyramid.png},
+                        planned.scene.files_to_keep());
+    require_all_writable(pyramid);
+    require_strategies(planned.scene.settings, {"--strategies-image", {}});
+    check_strategies_request(planned.request.strategies, files_of_image(planned.output, layers_of(planned)),
+                             planned.scene.settings, planned.options, planned.request.overrides.depth);
+}
+
+}  // namespace
+
 void require_no_layer_of_another(const std::filesystem::path& output) {
     const std::string name = output.filename().string();
     for (std::size_t dot = name.rfind('.', name.size() - output.extension().string().size() - 1);
@@ -56,36 +74,19 @@ void require_no_layer_of_another(const std::filesystem::path& output) {
     }
 }
 
-/// Throws SceneError if the file of `layer` is an image of its own.
-void require_free(const std::filesystem::path& output, const std::string& layer, const SceneDesc& scene) {
-    const std::filesystem::path path = layer_path(output, layer);
-    require_writable(path);
-    const std::filesystem::path other = OutputPaths::beside(path).json;
+void require_free(const std::filesystem::path& layer, const SourceLocation& where) {
+    require_writable(layer);
+    const std::filesystem::path other = OutputPaths::beside(layer).json;
     if (std::filesystem::exists(other))
-        throw SceneError(scene.settings.at("/aov_layout"),
-                         fmt::format("the layer '{}' would be written to {}, which is an image of its own, as {} "
-                                     "tells; give the layer another name, or use another layout",
-                                     layer, path.string(), other.string()));
+        throw SceneError(where,
+                         fmt::format("a layer would be written to {}, which is an image of its own, as {} tells; "
+                                     "give the layer another name, or use another layout",
+                                     layer.string(), other.string()));
 }
-
-/// Throws if the image of strategies cannot be written, or would show nothing.
-void check_strategies(const PlannedOutput& planned) {
-    const std::filesystem::path& strategies = planned.request.strategies.output;
-    const OutputPaths pyramid = OutputPaths::beside(strategies);
-    require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()), std::array{pyramid.exr, pyramid.png},
-                        planned.scene.files_to_keep());
-    require_all_writable(pyramid);
-    require_strategies(planned.scene.settings, {"--strategies-image", {}});
-    check_strategies_request(planned.request.strategies, paths_of(planned), planned.scene.settings, planned.options,
-                             planned.request.overrides.depth);
-}
-
-}  // namespace
 
 void check_outputs(const PlannedOutput& planned) {
     const std::filesystem::path& output = planned.output;
-    const std::vector<std::string> layers =
-        layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
+    const std::vector<std::string> layers = layers_of(planned);
     require_inputs_kept(fmt::format("--output {}", output.string()), files_of_image(output, layers),
                         planned.scene.files_to_keep());
     if (!is_partial(output)) require_no_settings(paths_of(planned).json, planned.scene.directory);
@@ -99,7 +100,8 @@ void check_outputs(const PlannedOutput& planned) {
     }
     require_all_writable(paths_of(planned));
     require_no_layer_of_another(output);
-    for (const std::string& layer : layers) require_free(output, layer, planned.scene);
+    for (const std::string& layer : layers)
+        require_free(layer_path(output, layer), planned.scene.settings.at("/aov_layout"));
     if (!planned.request.strategies.output.empty()) check_strategies(planned);
 }
 

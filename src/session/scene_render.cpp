@@ -33,6 +33,7 @@
 #include "session/world_statistics.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
@@ -277,8 +278,10 @@ class SceneRender {
     [[nodiscard]] RenderResult render_from(const World& world, RenderState state) {
         ProgressDisplay display(title(), request_.quiet || request_.progress_descriptor >= 0);
         PhaseTimer since_checkpoint;
+        // Each checkpoint has samples that the one before lacks, however often they are asked for.
+        std::atomic<bool> has_gone_on = false;
         const auto checkpoint_is_due = [&] {
-            return request_.checkpoint_minutes > 0.0 &&
+            return request_.checkpoint_minutes > 0.0 && has_gone_on &&
                    since_checkpoint.elapsed().wall >= request_.checkpoint_minutes * 60.0;
         };
         ShowingTimes showings;
@@ -299,10 +302,12 @@ class SceneRender {
                 if (!checkpoint_is_due()) return;
                 write_checkpoint(now);
                 since_checkpoint = {};
+                has_gone_on = false;
             }};
         return render(
             world, *integrator_, options_, threads_, interrupt_requested(),
             [&](const RenderProgress& now) {
+                has_gone_on = true;
                 display.update(now);
                 progress_pipe_.update(now);
                 showings.go_on();
@@ -343,6 +348,12 @@ class SceneRender {
     void write_preview(const RenderState& state) {
         clear_preview_request();
         const std::filesystem::path path = preview_path(output_);
+        if (const std::filesystem::path other = std::filesystem::path(path).replace_extension(".json");
+            std::filesystem::exists(other)) {
+            log_error("error: no preview was written: {} is that of an image of its own, as {} tells", path.string(),
+                      other.string());
+            return;
+        }
         ImageDescription now = description_;
         describe_state(now, state, false, "preview");
         choose_missing_exposure(now.frame);
@@ -359,6 +370,15 @@ class SceneRender {
         }
     }
 
+    /// Returns options with which strategies get as many samples as the image has, whatever ended it.
+    [[nodiscard]] RenderOptions options_of_strategies(const RenderState& rendered) const {
+        RenderOptions options = options_;
+        options.spp = static_cast<int>(rendered.spp_done);
+        options.relative_error = 0.0;
+        options.time_limit_seconds = 0.0;
+        return options;
+    }
+
     void write(const World& world, const RenderResult& rendered, bool complete) {
         enter("write");
         describe_state(description_, rendered, complete, halt_reason_name(rendered.halt_reason));
@@ -373,8 +393,9 @@ class SceneRender {
         const PixelDepth depth = request_.overrides.depth;
         const std::vector<std::string> earlier = write_image_files(paths_, description_, colors_, depth, [&] {
             if (!request_.strategies.output.empty() && complete)
-                write_strategies_image(request_.strategies, world, settings_.integrator, options_, description_.frame,
-                                       colors_, depth, threads_, title(), request_.quiet);
+                write_strategies_image(request_.strategies, world, settings_.integrator,
+                                       options_of_strategies(rendered), description_.frame, colors_, depth, threads_,
+                                       title(), request_.quiet);
         });
         if (request_.quiet) return;
         note_brightest(paths_, description_.frame, depth);

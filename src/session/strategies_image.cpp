@@ -42,8 +42,8 @@ std::vector<Strategy> shown_strategies(const StrategiesRequest& request, const P
     return strategies_between(lengths.min_depth, longest_shown(request, lengths));
 }
 
-void require_other_files(const OutputPaths& image, const OutputPaths& pyramid) {
-    for (const std::filesystem::path& of_image : {image.exr, image.png, image.json})
+void require_other_files(std::span<const std::filesystem::path> image, const OutputPaths& pyramid) {
+    for (const std::filesystem::path& of_image : image)
         for (const std::filesystem::path& of_pyramid : {pyramid.exr, pyramid.png})
             if (!of_image.empty() && written_file(of_image) == written_file(of_pyramid))
                 throw UsageError(
@@ -91,7 +91,7 @@ bool has_strategies_image(const StrategiesRequest& request, const OutputPaths& i
     return !pyramid_is_missing && !image_is_missing && of_pyramid >= of_image;
 }
 
-void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
+void check_strategies_request(const StrategiesRequest& request, std::span<const std::filesystem::path> image,
                               const RenderSettings& settings, const RenderOptions& options, PixelDepth depth) {
     require_other_files(image, OutputPaths::beside(request.output));
     const PathLengths& lengths = settings.integrator.lengths;

@@ -12,6 +12,7 @@
 #include "scene/render_settings.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace etendue {
@@ -30,7 +31,7 @@ struct StrategiesRequest {
 
 /// Before anything is rendered: throws UsageError if the pyramid would be written over the image, whose files are
 /// `image`, or would show nothing, and std::runtime_error if it needs more memory than the machine has.
-void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
+void check_strategies_request(const StrategiesRequest& request, std::span<const std::filesystem::path> image,
                               const RenderSettings& settings, const RenderOptions& options, PixelDepth depth);
 
 /// Renders every strategy of the integrator of these settings, and its merges, if it has any, and writes an EXR with a

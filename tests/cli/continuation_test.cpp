@@ -245,6 +245,34 @@ TEST_F(Continuation, RemovesThePreviewOfAFinishedImage) {
     EXPECT_TRUE(fs::exists(work_ / "a.preview.png")) << "it is another image's";
 }
 
+TEST_F(Continuation, AFinishedImageKeepsTheCheckpointOfALongerRender) {
+    ASSERT_EQ(run(render(8, "a.exr")).exit_code, 0);
+    (void)run(render(1000000, "a.exr", {"--resume", "--checkpoint-every", "0.0003"}), [&](int pid) {
+        for (int i = 0; i < 3000 && !fs::exists(work_ / "a.checkpoint"); ++i) sleep_ms(5);
+        kill(pid, SIGKILL);
+    });
+    ASSERT_TRUE(fs::exists(work_ / "a.checkpoint"));
+    const ProgramResult result = run(render(8, "a.exr", {"--resume"}));
+    EXPECT_NE(result.err.find("up to date"), std::string::npos) << result.err;
+    EXPECT_TRUE(fs::exists(work_ / "a.checkpoint"));
+}
+
+TEST_F(Continuation, RendersBetweenCheckpointsHoweverOftenTheyAreAskedFor) {
+    EXPECT_EQ(run(render(4, "a.exr", {"--checkpoint-every", "1e-8"})).exit_code, 0);
+}
+
+TEST_F(Continuation, APreviewReplacesNoImage) {
+    ASSERT_EQ(run(render(1, "a.preview.exr")).exit_code, 0);
+    const std::string before = read_file(work_ / "a.preview.png");
+    const ProgramResult result = run(render(1000000, "a.exr"), [&](int pid) {
+        kill(pid, SIGUSR1);
+        sleep_ms(1000);
+        kill(pid, SIGTERM);
+    });
+    EXPECT_NE(result.err.find("no preview was written"), std::string::npos) << result.err;
+    EXPECT_EQ(read_file(work_ / "a.preview.png"), before);
+}
+
 /// The choice is as good as any name in the file of the first frame, and there none.
 TEST_F(Continuation, ASequenceHasTheIntegratorOfItsFirstFrame) {
     (void)animated_scene((folder_ / "box").string());

@@ -170,6 +170,37 @@ TEST_F(Layers, OfPartsAreThoseOfTheWhole) {
     }
 }
 
+TEST_F(Layers, OfHalfOfTheSamplesAreThereIfTheyAreAskedFor) {
+    const Arguments layers{"--aov", "N", "--aov-layout", "files", "--spp", "64", "--error", "0.5"};
+    ASSERT_EQ(render("a.exr", layers).exit_code, 0);
+    EXPECT_FALSE(fs::exists(work_ / "a.half.exr")) << "they serve the estimate of the error only";
+    Arguments denoising = layers;
+    denoising.insert(denoising.end(), {"--aov", "denoising"});
+    ASSERT_EQ(render("b.exr", denoising).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work_ / "b.half.exr"));
+}
+
+TEST_F(Layers, OfAMergeReplaceNoOtherImage) {
+    ASSERT_EQ(render("a.N.exr", {}).exit_code, 0);
+    const std::string before = read_file(work_ / "a.N.exr");
+    ASSERT_EQ(render("a.partial", {"--aov", "N", "--aov-layout", "files"}).exit_code, 0);
+    const ProgramResult over_image = run_etendue({"merge", "a.partial", "-o", "a.exr"}, work_);
+    EXPECT_EQ(over_image.exit_code, 3) << over_image.err;
+    EXPECT_NE(over_image.err.find("a.N.exr, which is an image of its own"), std::string::npos) << over_image.err;
+    EXPECT_EQ(read_file(work_ / "a.N.exr"), before);
+    ASSERT_EQ(render("b.exr", {"--aov", "N", "--aov-layout", "files"}).exit_code, 0);
+    const ProgramResult over_layer = run_etendue({"merge", "a.partial", "-o", "b.N.exr"}, work_);
+    EXPECT_EQ(over_layer.exit_code, 3) << over_layer.err;
+    EXPECT_NE(over_layer.err.find("b.N.exr is a layer of the image b.exr"), std::string::npos) << over_layer.err;
+}
+
+TEST_F(Layers, AreReplacedByNoImageOfStrategies) {
+    const ProgramResult result = render(
+        "a.exr", {"--integrator", "bdpt", "--aov", "N", "--aov-layout", "files", "--strategies-image", "a.N.exr"});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find("which belongs to the image"), std::string::npos) << result.err;
+}
+
 TEST_F(Layers, WhatIsWrongIsSaidWithItsPlace) {
     const auto error = [&](const Arguments& more, int exit_code) {
         const ProgramResult result = render("a.exr", more);

@@ -115,13 +115,16 @@ TEST(ExrDriver, CarriesStandardAttributesOfShots) {
 
 TEST(ShotAttributes, RatesAndTimeCodes) {
     const auto rate = [](double fps) {
-        const ImageRational ratio = frames_per_second(fps);
-        return std::pair(ratio.numerator, ratio.denominator);
+        const std::optional<ImageRational> ratio = frames_per_second(fps);
+        return ratio ? std::pair(ratio->numerator, ratio->denominator) : std::pair(0, 0);
     };
     EXPECT_EQ(rate(25.0), std::pair(25, 1));
     EXPECT_EQ(rate(23.976), std::pair(24000, 1001));
     EXPECT_EQ(rate(29.97), std::pair(30000, 1001));
     EXPECT_EQ(rate(12.5), std::pair(12500, 1000));
+    EXPECT_EQ(rate(1e-3), std::pair(1, 1000));
+    EXPECT_EQ(rate(5e-4), std::pair(0, 0));
+    EXPECT_EQ(rate(1e12), std::pair(0, 0));
     EXPECT_EQ(time_code(0, 24.0)->digits, 0u);
     EXPECT_EQ(time_code((11 * 3600 + 59 * 60 + 58) * 30 + 29, 29.97)->digits, 0x11595829u);
     EXPECT_FALSE(time_code(-1, 24.0));

@@ -151,7 +151,23 @@ TEST_F(UpToDate, NotWhenAnInputChangedWhileItWasRead) {
     statistics.inputs = prepared.inputs;
     write_file(output_.json, to_json(statistics));
     EXPECT_EQ(reason(), "input triangle.bin changed while the image was made of it");
-    for (const InputFile& file : stamp_inputs(prepared.scene, fs::file_time_type::min())) EXPECT_EQ(file.modified, 0);
+    for (const InputFile& file : stamp_inputs(prepared.scene, fs::file_time_type::min()))
+        EXPECT_EQ(file.modified, InputFile::kChanged);
+}
+
+// Archives and other clocks give files such times.
+TEST_F(UpToDate, WithInputsOfTheYear1970OrOfTomorrow) {
+    const fs::file_time_type now = fs::file_time_type::clock::now();
+    const auto since_1970 = std::chrono::file_clock::to_sys(now).time_since_epoch();
+    for (const fs::file_time_type time : {now - since_1970, now + std::chrono::hours(24)}) {
+        fs::last_write_time(bin_, time);
+        PreparedScene prepared = prepare_scene(scene_, {});
+        hash_inputs(prepared.scene, prepared.inputs);
+        RenderStatistics statistics = complete();
+        statistics.inputs = prepared.inputs;
+        write_file(output_.json, to_json(statistics));
+        EXPECT_EQ(reason(), "");
+    }
 }
 
 TEST_F(UpToDate, NotWhenThereAreNewInputs) {
