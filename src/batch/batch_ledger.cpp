@@ -151,6 +151,7 @@ void LedgerHistory::take(const std::string& line) {
         entries_[unit] = {.kind = kind,
                           .host = text_at(json, "/host"),
                           .exit_code = number_at<int>(json, "/exit_code"),
+                          .has_crashed = json.contains("signal"),
                           .error = error.substr(0, error.find('\n')),
                           .is_final = !json.contains("again"),
                           .is_recent = !is_first_read_};

@@ -83,9 +83,10 @@ void TimeLeft::begin(std::size_t index, const std::optional<double>& estimate, d
     under_way_[index] = {.estimate = estimate, .share = share};
 }
 
-void TimeLeft::follow(std::size_t index, double seconds, double fraction) {
+void TimeLeft::follow(std::size_t index, double seconds, double fraction, const std::optional<double>& rendered) {
     UnderWay& image = under_way_.at(index);
     image.seconds = seconds;
+    image.rendered = rendered.value_or(seconds);
     image.fraction = fraction;
 }
 
@@ -115,7 +116,8 @@ std::optional<double> TimeLeft::left() const {
     bool knows_each = mean.has_value();
     for (const auto& [index, image] : under_way_) {
         std::optional<double> whole = expected(image.estimate);
-        if (image.fraction > kLeastFraction) whole = image.seconds / image.fraction * image.share;
+        if (image.fraction > kLeastFraction)
+            whole = (image.seconds + image.rendered * (1.0 - image.fraction) / image.fraction) * image.share;
         if (!whole) return std::nullopt;
         const double rest = std::max(0.0, *whole - image.seconds * image.share);
         sum += rest;
@@ -183,7 +185,9 @@ void BatchProgress::update(BatchProgressLine line) {
 }
 
 void BatchProgress::record(const std::string& text) {
-    if (log_.is_open()) log_ << stamped(text) << std::endl;
+    if (!log_.is_open() || log_ << stamped(text) << std::endl) return;
+    log_.close();
+    say_error("error: the log (--log) cannot be written, and has none of what follows");
 }
 
 void BatchProgress::clear() {

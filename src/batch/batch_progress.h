@@ -21,8 +21,9 @@ class TimeLeft {
     void add(const std::optional<double>& estimate);
     /// Begins the image `index`, which is no more among those to come, with `share` of the threads, (0, 1].
     void begin(std::size_t index, const std::optional<double>& estimate, double share);
-    /// Notes that the image, which was begun, has taken so many seconds, and what fraction of it is done.
-    void follow(std::size_t index, double seconds, double fraction);
+    /// Notes that the image, which was begun, has taken so many seconds, and what fraction of it is done, in `rendered`
+    /// seconds with those of earlier attempts; none: in as many as it has taken.
+    void follow(std::size_t index, double seconds, double fraction, const std::optional<double>& rendered = {});
     /// Ends the image after so many seconds; none if that says nothing of the others, as when it failed.
     void end(std::size_t index, const std::optional<double>& seconds);
 
@@ -34,6 +35,7 @@ class TimeLeft {
         std::optional<double> estimate{};
         double share = 1.0;
         double seconds = 0.0;
+        double rendered = 0.0;
         double fraction = 0.0;
     };
     /// Returns the seconds that an image of this estimate takes with all threads.

@@ -122,7 +122,7 @@ void BatchRecord::follow(std::size_t index, const ChildProgress& progress, doubl
     BatchUnit& unit = report_.units[index];
     const bool renders = progress.phase == "render";
     const double fraction = renders ? progress.fraction : 0.0;
-    time_left_.follow(index, seconds, fraction);
+    time_left_.follow(index, seconds, fraction, renders ? std::optional(progress.seconds) : std::nullopt);
     if (renders) {
         unit.fraction = fraction;
         const std::uint64_t pixels = static_cast<std::uint64_t>(unit.width) * static_cast<std::uint64_t>(unit.height);
@@ -166,7 +166,8 @@ void BatchRecord::end(std::size_t index, const PlannedUnit& planned, const Attem
             return;
         case AttemptEnd::Interrupted:
             unit.outcome = UnitOutcome::Interrupted;
-            read_statistics(statistics, unit);
+            // Before its first sample, an image has the statistics of the one before.
+            if (FileStamp::of(statistics) != planned.seen) read_statistics(statistics, unit);
             progress_.say(fmt::format("{}: interrupted, goes on when the batch is started again", unit.name));
             return;
         default:

@@ -41,6 +41,10 @@ bool was_refused(const Attempt& attempt) {
 
 /// True if what failed there is no better here: a disk that is full or a driver that crashes may be one machine's own.
 bool would_fail_here(const LedgerHistory::Entry& failure, const std::string& host) {
+    // Without a process that ended, nothing was tried; and how the other batch was called is no fault of the image.
+    if (!failure.exit_code && !failure.has_crashed) return false;
+    const bool names_option = failure.error.starts_with("error: --");
+    if (failure.exit_code == static_cast<int>(ExitCode::UsageError) || names_option) return false;
     return failure.host == host || failure.exit_code == static_cast<int>(ExitCode::InvalidScene);
 }
 
@@ -85,6 +89,9 @@ void BatchRunner::fail_all() {
     for (std::size_t i = 0; i < plan_.size(); ++i) {
         if (!plan_[i].is_stale()) continue;
         record_.unit(i).outcome = UnitOutcome::Failed;
+        // What becomes of an image that another batch makes is that one's to say.
+        const LockAttempt got = locks_.take(plan_[i].task.id);
+        if (!got.lock) continue;
         record_.end_attempt(i, plan_[i], {.end = AttemptEnd::Failed, .error = plan_[i].error}, 0.0, false);
     }
     record_.end_report(false);

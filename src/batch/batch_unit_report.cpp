@@ -46,12 +46,13 @@ BatchUnit left_out_unit(const BatchTask& task, const BatchOptions& options, cons
     unit.outcome = UnitOutcome::NotChosen;
     const OutputPaths paths = OutputPaths::beside(task.job.output, options.overrides.png);
     const LedgerHistory::Entry* const last = history.find(task.id);
-    if (last != nullptr && last->kind == LedgerEventKind::UnitFailed) {
-        unit.outcome = UnitOutcome::Failed;
-        unit.error = last->error;
-    } else if (!why_unfinished(paths) && !why_outdated(paths, task.job.scene)) {
+    // An image that has failed may have been made otherwise since.
+    if (!why_unfinished(paths) && !why_outdated(paths, task.job.scene)) {
         unit.outcome = UnitOutcome::UpToDate;
         read_statistics(paths.json, unit);
+    } else if (last != nullptr && last->kind == LedgerEventKind::UnitFailed) {
+        unit.outcome = UnitOutcome::Failed;
+        unit.error = last->error;
     }
     return unit;
 }

@@ -335,7 +335,8 @@ void require_scenes_kept(std::vector<fs::path> outputs, const std::vector<BatchT
     const fs::path* last = nullptr;  // tasks of one scene are beside each other
     for (const BatchTask& task : tasks) {
         if (last == nullptr || *last != task.job.scene)
-            for (fs::path& input : find_inputs(task.job.scene)) inputs.push_back(std::move(input));
+            for (fs::path& input : find_inputs(task.job.scene, options.overrides.assets))
+                inputs.push_back(std::move(input));
         last = &task.job.scene;
     }
     require_inputs_kept("--output", outputs, inputs);
@@ -395,10 +396,14 @@ BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_name
             }
         }
     }
+    const std::vector<BatchTask> every = all;
     BatchTasks tasks = choose(std::move(all), options);
     const std::vector<fs::path> files = files_of(tasks.chosen, options);
-    if (!options.log.empty()) require_log_apart(options.log, files);
-    require_scenes_kept(files, tasks.chosen, options);
+    // Scenes and images that are left out are to be kept, too.
+    require_scenes_kept(files, every, options);
+    if (options.log.empty()) return tasks;
+    require_log_apart(options.log, files);
+    for (const BatchTask& task : tasks.left_out) require_log_apart(options.log, files_of_image(task.job.output, {}));
     return tasks;
 }
 

@@ -146,6 +146,37 @@ std::size_t array_size_for(const SubmitArguments& arguments) try {
     return kSlurmDefault;
 }
 
+/// Files that tasks must not find, and that are of use again if there will be no tasks: gives them other names, and
+/// puts those back that have not been removed.
+class PutAside {
+  public:
+    explicit PutAside(std::span<const fs::path> files) {
+        for (const fs::path& file : files) {
+            std::error_code error;
+            fs::rename(file, aside(file), error);
+            if (!error) files_.push_back(file);
+        }
+    }
+    ~PutAside() {
+        std::error_code ignored;
+        for (const fs::path& file : files_)
+            if (!fs::exists(file, ignored)) fs::rename(aside(file), file, ignored);
+    }
+    PutAside(const PutAside&) = delete;
+    PutAside& operator=(const PutAside&) = delete;
+
+    void remove() {
+        std::error_code ignored;
+        for (const fs::path& file : files_) fs::remove(aside(file), ignored);
+        files_.clear();
+    }
+
+  private:
+    static fs::path aside(fs::path file) { return file += ".replaced"; }
+
+    std::vector<fs::path> files_;
+};
+
 ExitCode run_submit(const SubmitArguments& arguments) {
     const std::vector<BatchTask> tasks = find_images(arguments);
     if (tasks.empty()) {
@@ -155,6 +186,7 @@ ExitCode run_submit(const SubmitArguments& arguments) {
     if (const std::string note = note_on_exposures(tasks, arguments.request.overrides); !note.empty())
         log_warning("{}", note);
     const fs::path& output = arguments.request.farm.output;
+    const std::size_t known = read_submissions(output).size();
     const FarmWork work = find_farm_work(arguments.request, tasks, submitted_before(arguments));
     if (interrupt_requested()) {
         log_error("interrupted before anything was submitted");
@@ -167,16 +199,20 @@ ExitCode run_submit(const SubmitArguments& arguments) {
             throw UsageError(fmt::format("--split-samples {} is more than the {} tasks that a job array may have here",
                                          arguments.request.parts, max_array_size));
     }
+    const FileDescriptor lock = arguments.dry_run ? FileDescriptor() : lock_submissions(output);
+    if (read_submissions(output).size() != known)
+        throw IoError(fmt::format("another 'etendue submit' has submitted to {} meanwhile: call this one again",
+                                  output.string()));
     FarmPlan plan = plan_farm(work.images, arguments.request.farm, max_array_size);
     std::vector<std::string> jobs;
     const fs::path directory =
         arguments.dry_run ? farm_directory(output) / "submit-DRY-RUN" : make_submission_directory(output);
     const SlurmFarm farm = make_slurm_farm(work, std::move(plan), arguments.slurm, directory);
     if (!arguments.dry_run) {
-        std::error_code ignored;
-        for (const fs::path& file : work.useless) fs::remove(file, ignored);
         const std::vector<Submission> earlier = read_submissions(output);
+        PutAside useless(work.useless);
         jobs = submit(farm);
+        useless.remove();
         remove_superseded(earlier, farm.submission);
     }
     if (arguments.json)

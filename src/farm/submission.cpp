@@ -11,9 +11,11 @@
 #include <set>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 
 namespace etendue {
 
@@ -81,13 +83,30 @@ fs::path farm_directory(const fs::path& output) {
     return output / ".etendue";
 }
 
+FileDescriptor lock_submissions(const fs::path& output) {
+    const fs::path file = farm_directory(output) / "submitting";
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    FileDescriptor opened(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+    if (!opened.is_open())
+        throw IoError(fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno)));
+    if (::flock(opened.get(), LOCK_EX | LOCK_NB) != 0)
+        throw IoError(
+            fmt::format("another 'etendue submit' is submitting to {} now: call this one again once that one "
+                        "has ended",
+                        output.string()));
+    return opened;
+}
+
 fs::path make_submission_directory(const fs::path& output) {
     const fs::path parent = farm_directory(output);
     std::error_code error;
     fs::create_directories(parent, error);
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    // Sorted by name they are sorted by time.
-    const std::string name = fmt::format("{}{:%Y%m%d-%H%M%S}", kDirectoryPrefix, fmt::localtime(now));
+    const auto now = std::chrono::system_clock::now();
+    const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count();
+    // Sorted by name they are sorted by time, which universal time alone never turns back.
+    const std::string name = fmt::format("{}{:%Y%m%d-%H%M%S}{:03}", kDirectoryPrefix,
+                                         fmt::gmtime(std::chrono::system_clock::to_time_t(now)), milliseconds % 1000);
     // The jobs of different output directories have different names, too.
     std::random_device random;
     while (!error) {

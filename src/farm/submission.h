@@ -8,6 +8,7 @@
 
 #include "farm/farm_plan.h"
 #include "farm/slurm_script.h"
+#include "process/file_descriptor.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -45,6 +46,10 @@ struct Submission {
     /// Returns the file that is as old as the submission: what is newer was made since.
     [[nodiscard]] std::filesystem::path file() const { return directory / "submission.json"; }
 };
+
+/// Keeps other processes from submitting to `output` until the result is destroyed: they would submit the same images.
+/// Throws IoError if one does so now, or if no file can be made in the directory, which is created.
+[[nodiscard]] FileDescriptor lock_submissions(const std::filesystem::path& output);
 
 /// Makes a directory of its own for a new submission below the output directory. Throws IoError.
 [[nodiscard]] std::filesystem::path make_submission_directory(const std::filesystem::path& output);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -103,6 +104,8 @@ LiveAnswer ExplorerPage::answer(const LiveRequest& request) {
             return LiveAnswer::refused(error.what());
         } catch (const SceneError& error) {
             return LiveAnswer::refused(error.what());
+        } catch (const std::out_of_range&) {
+            return LiveAnswer::refused("there are two sides, 0 and 1");
         } catch (const nlohmann::json::exception&) {
             return LiveAnswer::refused("the page sent what is not understood");
         }

@@ -83,7 +83,8 @@ inline constexpr std::string_view kSettingsName = "render.json";
 
 /// Every file that the scene directory or file `path` may be read from: scene files, render.json and what their JSON
 /// names, which need not exist. Nothing else is read of them, and what cannot be read is left out.
-[[nodiscard]] std::vector<std::filesystem::path> find_inputs(const std::filesystem::path& path);
+[[nodiscard]] std::vector<std::filesystem::path> find_inputs(const std::filesystem::path& path,
+                                                             std::span<const std::filesystem::path> assets = {});
 
 /// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or glTF files, also
 /// inside another one. Loading says of those with several files that one must be named. Links to directories are

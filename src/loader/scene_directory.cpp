@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -247,14 +248,17 @@ std::optional<FrameRange> find_frames(const fs::path& path) {
     return settings ? settings->frames : std::nullopt;
 }
 
-std::vector<fs::path> find_inputs(const fs::path& path) {
+std::vector<fs::path> find_inputs(const fs::path& path, std::span<const fs::path> assets) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
     const fs::path directory = directory_of(path, is_directory);
     std::vector<fs::path> files = is_directory ? scene_files(path) : std::vector{path};
     files.push_back(directory / kSettingsName);
     for (std::size_t i = files.size(); i-- > 0;)
-        for (const std::string& name : named_files(files[i])) files.push_back(directory / name);
+        for (const std::string& name : named_files(files[i])) {
+            files.push_back(directory / name);
+            for (const fs::path& from : assets) files.push_back(from / name);
+        }
     return files;
 }
 

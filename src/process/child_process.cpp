@@ -70,8 +70,9 @@ bool prepare(const Start& start, int& failure) {
     if (nothing == STDIN_FILENO && ::fcntl(STDIN_FILENO, F_SETFD, 0) != 0) return false;
     // Sockets that a library has accepted are open for children, too; a kernel that cannot close them leaves them so.
     (void)::close_range(kFirstFree, ~0u, CLOSE_RANGE_CLOEXEC);
-    // A library that serves pages ignores it, which exec would pass on.
-    if (::signal(SIGPIPE, SIG_DFL) == SIG_ERR) return false;
+    // What this process and its libraries ignore, exec would pass on.
+    for (const int number : {SIGPIPE, SIGXFSZ})
+        if (::signal(number, SIG_DFL) == SIG_ERR) return false;
     if (start.memory && ::setrlimit(RLIMIT_DATA, &*start.memory) != 0) return false;
     return ::setpgid(0, 0) == 0 && ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0;
 }

@@ -1,6 +1,8 @@
 #include "process/process_owner.h"
 
 #include <array>
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -27,12 +29,17 @@ std::string machine_id() {
     return fmt::format("{} {}", boot, std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string());
 }
 
-/// When the process started, in clock ticks since the system did; none if it does not run: one that has ended and that
-/// nobody has asked for yet does not.
-std::optional<std::uint64_t> start_time_of(std::int64_t pid) {
+/// Returns what the kernel says of the process; none if it does not run, or if /proc hides it from this user.
+std::optional<std::string> stat_of(std::int64_t pid) {
     std::ifstream file(fmt::format("/proc/{}/stat", pid));
     std::string text;
     if (!std::getline(file, text)) return std::nullopt;
+    return text;
+}
+
+/// Returns when the process of which the kernel says `text` started, in clock ticks since the system did; none if it
+/// has ended and nobody has asked for it yet.
+std::optional<std::uint64_t> start_time_in(const std::string& text) {
     // The name in parentheses, which may hold anything, is the second field; the state is the third, the start the
     // 22nd.
     std::istringstream fields(text.substr(text.rfind(')') + 1));
@@ -54,12 +61,16 @@ std::string ProcessOwner::str() const {
 
 ProcessOwner this_process() {
     const std::int64_t pid = ::getpid();
-    return {host_name(), machine_id(), pid, start_time_of(pid).value_or(0)};
+    const std::optional<std::string> stat = stat_of(pid);
+    return {host_name(), machine_id(), pid, stat ? start_time_in(*stat).value_or(0) : 0};
 }
 
 Liveness liveness(const ProcessOwner& owner) {
     if (owner.machine != machine_id()) return Liveness::Unknown;
-    return start_time_of(owner.pid) == owner.start_time ? Liveness::Alive : Liveness::Dead;
+    if (const std::optional<std::string> stat = stat_of(owner.pid))
+        return start_time_in(*stat) == owner.start_time ? Liveness::Alive : Liveness::Dead;
+    // /proc may hide the processes of other users (hidepid).
+    return ::kill(static_cast<pid_t>(owner.pid), 0) != 0 && errno == ESRCH ? Liveness::Dead : Liveness::Unknown;
 }
 
 }  // namespace etendue

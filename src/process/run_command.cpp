@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 
 #include <fcntl.h>
@@ -41,7 +42,16 @@ pid_t start(const std::vector<std::string>& words, const Pipe& out, const Pipe& 
     int error = ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, out.writer.get(), STDOUT_FILENO);
     if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, err.writer.get(), STDERR_FILENO);
-    if (error == 0) error = ::posix_spawnp(&pid, words.front().c_str(), &actions, nullptr, argv.data(), environ);
+    // What this process ignores ends others, as they expect.
+    posix_spawnattr_t attributes;
+    if (const int failure = ::posix_spawnattr_init(&attributes)) throw_error(words.front(), failure);
+    sigset_t ended_by;
+    ::sigemptyset(&ended_by);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaddset(&ended_by, signal);
+    if (error == 0) error = ::posix_spawnattr_setsigdefault(&attributes, &ended_by);
+    if (error == 0) error = ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    if (error == 0) error = ::posix_spawnp(&pid, words.front().c_str(), &actions, &attributes, argv.data(), environ);
+    ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&actions);
     if (error != 0) throw_error(words.front(), error);
     return pid;

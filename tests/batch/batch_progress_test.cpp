@@ -40,6 +40,8 @@ TEST(TimeLeft, IsCorrectedByWhatHasFinished) {
     EXPECT_EQ(time.left(), 45.0);
     time.follow(1, 15.0, 0.5);
     EXPECT_EQ(time.left(), 15.0) << "the image under way knows better";
+    time.follow(1, 1.0, 0.5, 100.0);
+    EXPECT_EQ(time.left(), 100.0) << "half was done before";
     time.follow(1, 100.0, 0.01);
     EXPECT_EQ(time.left(), 0.0) << "never less than nothing";
 }

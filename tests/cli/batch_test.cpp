@@ -867,6 +867,35 @@ TEST_F(Batch, ACheckpointBesideAFinishedImageIsRemoved) {
 }
 
 /// Made up: that another machine's batch says so while this one waits for its lock.
+// Another terminal, the same directory, a typing error.
+TEST_F(Batch, AMistakeOfAnotherFailsNothing) {
+    add_slow_scene("a", 2.0);
+    add_scene("b");
+    const auto batch = start();
+    (void)child_of(*batch);
+    EXPECT_NE(run({"--camera", "nope"}).exit_code, 0);
+    EXPECT_EQ(run_etendue({"batch", (folder_ / "scenes").string(), "-o", "out", "--camera", "nope"}, work_).exit_code,
+              2);
+    expect_end(*batch, 0);
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a", 1}, {"b", 1}}));
+}
+
+TEST_F(Batch, ReplacesNoInputsOfScenes) {
+    add_scene("sky");
+    add_scene("lit");
+    write_file(folder_ / "scenes/lit/render.json", R"({"environment": {"image": "sky.exr"}})");
+    fs::create_directories(work_ / "out");
+    write_file(work_ / "out/sky.exr", "a map");
+    for (const Names& more : {Names{"--assets", "out"}, Names{"--assets", "out", "--only", "sky"}}) {
+        const ProgramResult result = run(more);
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+        EXPECT_NE(result.err.find("it is an input"), std::string::npos) << result.err;
+        EXPECT_EQ(read_file(work_ / "out/sky.exr"), "a map");
+    }
+    const std::string settings = folder_ / "scenes/lit/render.json";
+    EXPECT_EQ(run({"--only", "sky", "--log", settings}).exit_code, 2) << "of a scene that is left out";
+}
+
 TEST_F(Batch, OneMachinesFailureIsAnothersOnlyIfTheSceneIsInvalid) {
     for (const auto& [code, rendered] : {std::pair{1, true}, std::pair{3, false}}) {
         fs::remove_all(work_ / "out");

@@ -3,6 +3,7 @@
 #include "image/write.h"
 #include "program/run_program.h"
 #include "program/small_files.h"
+#include "report/comparison_report.h"
 
 #include <algorithm>
 #include <array>
@@ -517,6 +518,18 @@ TEST_F(Compare, RatiosHaveNoIntervalsWhereTheReferenceMayDecideThem) {
         return !report()["pairs"][0]["intervals"]["relmse-trimmed"][0].is_null();
     };
     EXPECT_TRUE(has_interval("1"));
+    // That of relMSE x time has the scatter of both.
+    const auto cost = [&](std::size_t variant) {
+        const json of = report()["variants"][variant];
+        const auto log_mean = [](const json& values) {
+            return SeedValues{values.get<std::vector<double>>()}.log_mean();
+        };
+        return product(log_mean(of["errors"]["relmse-trimmed"]["values"]), log_mean(of["cpu_seconds"]["values"]));
+    };
+    const RatioInterval expected = ratio_interval(cost(0), cost(1));
+    const json interval = report()["pairs"][0]["intervals"]["relmse-trimmed_time"];
+    EXPECT_NEAR(interval[0].get<double>() / expected.low, 1.0, 1e-6);
+    EXPECT_NEAR(interval[1].get<double>() / expected.high, 1.0, 1e-6);
     EXPECT_EQ(notes().find("what tells the reference"), std::string::npos) << notes();
     EXPECT_FALSE(has_interval("64"));
     EXPECT_NE(notes().find("what tells the reference from the mean of all seeds"), std::string::npos) << notes();
