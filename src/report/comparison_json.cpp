@@ -21,6 +21,12 @@ Json range(const SeedValues& values) {
     return {{"mean", values.mean()}, {"median", values.median()}, {"min", values.least()}, {"max", values.largest()}};
 }
 
+Json times(const SeedValues& values) {
+    Json json = range(values);
+    json["values"] = values.values;
+    return json;
+}
+
 Json spread(const SeedValues& values) {
     return {{"mean", values.mean()},
             {"median", values.median()},
@@ -52,8 +58,8 @@ Json to_json(const VariantReport& variant) {
             {"seeds", variant.seeds},
             {"cannot_find", variant.cannot_find},
             {"spp", variant.spp},
-            {"seconds", range(variant.seconds)},
-            {"cpu_seconds", range(variant.cpu_seconds)},
+            {"seconds", times(variant.seconds)},
+            {"cpu_seconds", times(variant.cpu_seconds)},
             {"samples_per_cpu_second", variant.samples_per_cpu_second},
             {"rays", variant.rays},
             {"rays_per_second", variant.rays_per_second},
