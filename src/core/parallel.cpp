@@ -78,19 +78,22 @@ FlushDenormals::~FlushDenormals() {
 
 namespace {
 
-/// Throws IoError unless so many threads can run at once beside the caller. TBB, which starts its own when there is
-/// work, ends the process where it gets none.
-void require_threads(int count) {
+/// Throws IoError unless so many threads can run at once beside the caller, and those of libraries. TBB and OpenEXR,
+/// which start theirs when there is work, end the process where they get none.
+void require_threads(int of_pool) {
+    if (of_pool == 0) return;
+    constexpr int kOfLibraries = 4;
+    const int count = of_pool + kOfLibraries;
     std::mutex mutex;
     std::vector<std::jthread> threads;
     const std::lock_guard until_all_are_asked_for(mutex);
     try {
         for (int i = 0; i < count; ++i) threads.emplace_back([&mutex] { const std::lock_guard wait(mutex); });
     } catch (const std::system_error& error) {
-        throw IoError(
-            fmt::format("only {} of {} threads can be started: {}; ask for fewer (--threads), or raise the "
-                        "limit (ulimit -u)",
-                        threads.size() + 1, count + 1, error.code().message()));
+        throw IoError(fmt::format(
+            "only {} of {} threads can be started, {} of them for libraries: {}; ask for fewer (--threads), or "
+            "raise the limit (ulimit -u)",
+            threads.size() + 1, count + 1, kOfLibraries, error.code().message()));
     }
 }
 

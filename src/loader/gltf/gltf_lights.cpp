@@ -57,15 +57,20 @@ void LightReader::place_punctual(const tinygltf::Node& node, std::size_t index, 
     light.outer_cone_angle = static_cast<float>(source.spot.outerConeAngle);
     light.to_world = to_world;
     light.location = document_.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
+    if (light.type != LightType::Spot) return;
     // Exporters write single precision, also of the default for the outer cone, which is not.
-    if (light.type != LightType::Spot || light.inner_cone_angle <= light.outer_cone_angle) return;
+    const bool has_ramp = source.spot.innerConeAngle != source.spot.outerConeAngle;
+    if (has_ramp && light.inner_cone_angle <= light.outer_cone_angle) return;
+    const bool is_closed = !has_ramp && light.outer_cone_angle == 0.0f;
     if (warned_.insert(index).second)
         problems_.warning(
             light.location,
-            fmt::format("the spot's inner cone of {:.4g} should be narrower than the outer one of {:.4g}: the "
-                        "light ends at a hard edge",
-                        light.inner_cone_angle, light.outer_cone_angle));
+            is_closed ? "the spot's cones are closed, so that it shines on nothing: it is left out"
+                      : fmt::format("the spot's inner cone of {:.4g} should be narrower than the outer one of {:.4g}: "
+                                    "the light ends at a hard edge",
+                                    light.inner_cone_angle, light.outer_cone_angle));
     light.inner_cone_angle = light.outer_cone_angle;
+    if (is_closed) scene_.lights.pop_back();
 }
 
 void LightReader::place_measured(const tinygltf::Node& node, const tinygltf::Value& extension, const Mat4f& to_world,

@@ -232,9 +232,15 @@ class PrimitiveReader {
             return false;
         }
         out = gather<Vec3f>(data, [](const float* v) { return Vec3f(v[0], v[1], v[2]); });
-        if (std::ranges::all_of(out, [](const Vec3f& d) { return is_finite(d); })) return true;
-        problems_.error(where, "a displacement is not finite");
-        return false;
+        std::size_t repaired = 0;
+        for (Vec3f& d : out)
+            if (!is_finite(d)) {
+                d = Vec3f(0.0f);
+                ++repaired;
+            }
+        if (repaired > 0)
+            problems_.warning(where, fmt::format("{} displacements are not finite and are taken for 0", repaired));
+        return true;
     }
 
     bool read_targets(PrimitiveDeformation& deformation) {

@@ -285,6 +285,20 @@ TEST(Morph, WhatTargetsCannotMoveIsSaid) {
         << listing(loaded.problems);
 }
 
+TEST(Morph, DisplacementsThatAreNotFiniteAreNone) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    GltfBuilder builder;
+    builder.add_triangle()["targets"] = {{{"POSITION", builder.floats({0, 0, 0, 0, nan, 0, 0, 0, 2}, 3)}}};
+    builder.json["meshes"][0]["weights"] = {1.0};
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "1 displacements are not finite"))
+        << listing(loaded.problems);
+    EXPECT_FALSE(loaded.problems.has_errors());
+    const Handle<MeshDesc> mesh = loaded.scene.instances.at(0).mesh;
+    const PrimitiveDesc& moved = loaded.scene.meshes.at(static_cast<std::size_t>(mesh.index)).primitives.at(0);
+    EXPECT_EQ(moved.positions.at(2).z, 2.0f);
+}
+
 TEST(Morph, AnimatedWeightsComeFirst) {
     GltfBuilder builder = morphing();
     builder.json["nodes"][0]["weights"] = {1.0};
