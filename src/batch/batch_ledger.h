@@ -70,7 +70,7 @@ class LedgerHistory {
         LedgerEventKind kind = LedgerEventKind::UnitStarted;
         std::string host{};              ///< host of the batch process
         std::optional<int> exit_code{};  ///< exit code of the process that rendered it
-        bool has_crashed = false;        ///< a signal ended that process
+        bool has_crashed = false;        ///< a signal ended the process that rendered it
         std::string error{};             ///< if it failed; its first line
         bool is_final = true;            ///< its process did not try again at once
         bool is_recent = false;          ///< appended after the first `read_new`

@@ -149,7 +149,7 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
     return plan;
 }
 
-void arrange(BatchPlan& plan, BatchOrder order) {
+void arrange(BatchPlan& plan, BatchOrder order, std::span<const std::filesystem::path> assets) {
     const auto by = [&](const auto& key) {
         std::ranges::stable_sort(plan, [&](const PlannedUnit& a, const PlannedUnit& b) { return key(a) < key(b); });
     };
@@ -170,7 +170,7 @@ void arrange(BatchPlan& plan, BatchOrder order) {
                 if (!is_new) continue;
                 time->second = std::filesystem::file_time_type::min();
                 std::error_code error;
-                for (const std::filesystem::path& input : find_inputs(unit.task.job.scene))
+                for (const std::filesystem::path& input : find_inputs(unit.task.job.scene, assets))
                     if (const auto changed = std::filesystem::last_write_time(input, error); !error)
                         time->second = std::max(time->second, changed);
             }

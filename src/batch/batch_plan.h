@@ -60,8 +60,9 @@ using PlanProgress = std::function<void(const std::string& what, const BatchPlan
 [[nodiscard]] BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options,
                                   const LedgerHistory& history, const PlanProgress& progress);
 
-/// Puts the images into the order that is asked for; what is not known comes last.
-void arrange(BatchPlan& plan, BatchOrder order);
+/// Puts the images into the order that is asked for; what is not known comes last. Scenes may read files in the
+/// directories `assets`.
+void arrange(BatchPlan& plan, BatchOrder order, std::span<const std::filesystem::path> assets = {});
 
 /// Sums over the stale images of a plan.
 struct PlanTotals {

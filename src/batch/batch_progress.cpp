@@ -187,7 +187,7 @@ void BatchProgress::update(BatchProgressLine line) {
 void BatchProgress::record(const std::string& text) {
     if (!log_.is_open() || log_ << stamped(text) << std::endl) return;
     log_.close();
-    say_error("error: the log (--log) cannot be written, and has none of what follows");
+    say_error("error: the log (--log) cannot be written: nothing more is logged");
 }
 
 void BatchProgress::clear() {

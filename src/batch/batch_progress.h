@@ -21,8 +21,8 @@ class TimeLeft {
     void add(const std::optional<double>& estimate);
     /// Begins the image `index`, which is no more among those to come, with `share` of the threads, (0, 1].
     void begin(std::size_t index, const std::optional<double>& estimate, double share);
-    /// Notes that the image, which was begun, has taken so many seconds, and what fraction of it is done, in `rendered`
-    /// seconds with those of earlier attempts; none: in as many as it has taken.
+    /// Notes that the image `index`, which was begun, has taken `seconds` so far, and that `fraction` of it is done.
+    /// This fraction took `rendered` seconds, with those of earlier attempts; if none are given, it took `seconds`.
     void follow(std::size_t index, double seconds, double fraction, const std::optional<double>& rendered = {});
     /// Ends the image after so many seconds; none if that says nothing of the others, as when it failed.
     void end(std::size_t index, const std::optional<double>& seconds);

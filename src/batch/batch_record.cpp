@@ -166,7 +166,7 @@ void BatchRecord::end(std::size_t index, const PlannedUnit& planned, const Attem
             return;
         case AttemptEnd::Interrupted:
             unit.outcome = UnitOutcome::Interrupted;
-            // Before its first sample, an image has the statistics of the one before.
+            // Until the first sample is rendered, the file holds the statistics of an earlier render.
             if (FileStamp::of(statistics) != planned.seen) read_statistics(statistics, unit);
             progress_.say(fmt::format("{}: interrupted, goes on when the batch is started again", unit.name));
             return;

@@ -41,7 +41,8 @@ bool was_refused(const Attempt& attempt) {
 
 /// True if what failed there is no better here: a disk that is full or a driver that crashes may be one machine's own.
 bool would_fail_here(const LedgerHistory::Entry& failure, const std::string& host) {
-    // Without a process that ended, nothing was tried; and how the other batch was called is no fault of the image.
+    // If no process ended, nothing was tried. A wrong option of the other batch is no fault of the image.
+    // Errors of an option's value end with InvalidScene, too, and begin with the option.
     if (!failure.exit_code && !failure.has_crashed) return false;
     const bool names_option = failure.error.starts_with("error: --");
     if (failure.exit_code == static_cast<int>(ExitCode::UsageError) || names_option) return false;
@@ -80,7 +81,7 @@ const BatchPlan& BatchRunner::plan() {
         tidy();
         return plan_;
     }
-    arrange(plan_, options_.order);
+    arrange(plan_, options_.order, options_.overrides.assets);
     record_.list_plan(plan_, left_out_);
     return plan_;
 }
@@ -89,7 +90,7 @@ void BatchRunner::fail_all() {
     for (std::size_t i = 0; i < plan_.size(); ++i) {
         if (!plan_[i].is_stale()) continue;
         record_.unit(i).outcome = UnitOutcome::Failed;
-        // What becomes of an image that another batch makes is that one's to say.
+        // If another batch is making this image, only that batch records how it ends.
         const LockAttempt got = locks_.take(plan_[i].task.id);
         if (!got.lock) continue;
         record_.end_attempt(i, plan_[i], {.end = AttemptEnd::Failed, .error = plan_[i].error}, 0.0, false);

@@ -46,7 +46,7 @@ BatchUnit left_out_unit(const BatchTask& task, const BatchOptions& options, cons
     unit.outcome = UnitOutcome::NotChosen;
     const OutputPaths paths = OutputPaths::beside(task.job.output, options.overrides.png);
     const LedgerHistory::Entry* const last = history.find(task.id);
-    // An image that has failed may have been made otherwise since.
+    // An image that failed in the batch may have been rendered by another command since.
     if (!why_unfinished(paths) && !why_outdated(paths, task.job.scene)) {
         unit.outcome = UnitOutcome::UpToDate;
         read_statistics(paths.json, unit);

@@ -396,11 +396,11 @@ BatchTasks collect_tasks(const BatchOptions& options, const FindNames& find_name
             }
         }
     }
-    const std::vector<BatchTask> every = all;
     BatchTasks tasks = choose(std::move(all), options);
     const std::vector<fs::path> files = files_of(tasks.chosen, options);
-    // Scenes and images that are left out are to be kept, too.
-    require_scenes_kept(files, every, options);
+    // Outputs must not replace files of scenes and images that are left out, either.
+    require_scenes_kept(files, tasks.chosen, options);
+    require_scenes_kept(files, tasks.left_out, options);
     if (options.log.empty()) return tasks;
     require_log_apart(options.log, files);
     for (const BatchTask& task : tasks.left_out) require_log_apart(options.log, files_of_image(task.job.output, {}));

@@ -39,7 +39,7 @@ struct InterfaceFresnel {
         return {reflected, transmitted, chance + transmitted > 0.0f ? chance / (chance + transmitted) : 1.0f};
     }
 
-    /// Writes the reflectance of the brightest channel, without the film and where reflection is not total, as `bare`
+    /// Describes the reflectance of the brightest channel, without the film and where reflection is not total: `bare`
     /// times the Fresnel reflectance of the two indices plus `all`.
     struct Mixture {
         float bare = 1.0f;

@@ -12,8 +12,8 @@
 //
 // A coat with a normal of its own over anything but a body is placed by itself (world/coated_scattering.h). White
 // dielectrics reflect between 0.95 and 1.01 under it if the normals are less than 90 degrees apart; metals lose
-// 10% on average, up to 70% in places, where normal maps of both have slopes of up to 1. In this file, from
-// which albedos are estimated, light below the base's horizon is lost.
+// 10% on average, up to 70% in places, where normal maps of both have slopes of up to 1. The code in this file, with
+// which albedos are estimated, loses light below the base's horizon.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"

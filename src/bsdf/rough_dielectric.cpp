@@ -26,8 +26,9 @@ float alpha_that_misses(float target, const Missing& missing) {
     return 0.5f * (low + high);
 }
 
-/// Returns 1 - E(w), for `w` on the side whose other side has the relative index `eta`. Anisotropic facets
-/// with a reflectance of their own count as isotropic facets that miss as much with the reflectance of the indices.
+/// Returns 1 - E(w), the share of energy that single scattering misses, for `w` on the side from which the other side
+/// has the relative index `eta`. Anisotropic facets with a reflectance of their own count as isotropic facets that miss
+/// as much with the Fresnel reflectance of the indices.
 float missing_of(const InterfaceFresnel& fresnel, const Ggx& ggx, const Vec3f& w, float eta) {
     const Vec3f above{w.x, w.y, std::abs(w.z)};
     const auto bare = [&](float alpha) { return 1.0f - ggx_dielectric_albedo(above.z, alpha, eta); };

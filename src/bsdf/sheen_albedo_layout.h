@@ -15,8 +15,8 @@ using ggx_albedo_layout::mix;
 using ggx_albedo_layout::Place;
 using ggx_albedo_layout::place;
 
-inline constexpr int kCosines = 128;  ///< mu = t³, closest where the fibres' albedo rises, at grazing angles
-inline constexpr int kAlphas = 48;    ///< alpha = t², from kSmallestSheenAlpha
+inline constexpr int kCosines = 128;  ///< cosines mu = t³, densest at grazing angles, where the fibres' albedo rises
+inline constexpr int kAlphas = 48;    ///< values of alpha = t², from kSmallestSheenAlpha
 inline constexpr float kSmallestSheenAlpha = 0.01f;
 
 using Table = std::array<std::array<float, kCosines>, kAlphas>;

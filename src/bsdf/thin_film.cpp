@@ -31,9 +31,10 @@ struct Gaussian {
     }
 };
 
-/// Colour of an interference of the order whose path difference is `path_nm` and whose phase is shifted by `shift`
-/// (Belcour and Barla, equation 12), relative to the white of equal energy. A film far thinner than light is a tenth
-/// too red in a working space whose white is D65, as in the implementation notes of KHR_materials_iridescence.
+/// Returns the colour of an interference of the order whose path difference is `path_nm` and whose phase is shifted by
+/// `shift` (Belcour and Barla, equation 12), relative to the white of equal energy. A film far thinner than the
+/// wavelengths of light is a tenth too red in a working space whose white is D65, as it is with the implementation
+/// notes of KHR_materials_iridescence.
 Rgb sensitivity(const XyzToWorking& to_working, float path_nm, float shift) {
     constexpr Gaussian kX{5.4856e-13f, 1.6810e+06f, 4.3278e+09f};
     constexpr Gaussian kSecondX{9.7470e-14f, 2.2399e+06f, 4.5282e+09f};

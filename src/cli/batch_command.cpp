@@ -143,7 +143,7 @@ ExitCode run_dry(std::vector<BatchTask> tasks, const BatchOptions& options, cons
         progress.say("interrupted before anything was rendered");
         return interrupt_exit_code();
     }
-    arrange(plan, options.order);
+    arrange(plan, options.order, options.overrides.assets);
     print(options, to_json(plan), to_table(plan));
     if (is_command_line_wrong(plan)) return ExitCode::UsageError;
     return totals(plan).failing > 0 ? ExitCode::InvalidScene : ExitCode::Success;

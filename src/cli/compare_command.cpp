@@ -65,8 +65,8 @@ void add_comparison_options(CLI::App& command, CompareArguments& arguments) {
                      "Compare by time on the clock in place of CPU time, as where variants leave threads idle");
     command
         .add_option("--seeds", arguments.seeds,
-                    "Independent renders of each variant, 3 or more without a reference; 1 tells nothing of chance "
-                    "(default: 4)")
+                    "Independent renders of each variant, 3 or more without a reference; a single one does not show "
+                    "its noise (default: 4)")
         ->check(CLI::Range(1, 1000));
 }
 

@@ -6,6 +6,7 @@
 #include "compare/comparison_files.h"
 #include "compare/comparison_images.h"
 #include "compare/comparison_measures.h"
+#include "compare/comparison_notes.h"
 #include "compare/comparison_renders.h"
 #include "compare/comparison_summary.h"
 #include "core/log.h"

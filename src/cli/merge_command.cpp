@@ -131,7 +131,7 @@ void write_merged_image(const MergeArguments& arguments, const OutputPaths& path
     std::vector<std::filesystem::path> layers;
     for (const std::string& name : layer_file_names(paths.exr, image)) layers.push_back(paths.exr.parent_path() / name);
     require_parts_kept(arguments, layers);
-    for (const std::filesystem::path& layer : layers) require_free(layer, {arguments.output, {}});
+    for (const std::filesystem::path& layer : layers) require_no_image_at(layer, {arguments.output, {}});
     image.statistics.libraries = library_versions();
     const std::vector<std::string> earlier = write_image_files(paths, image, ColorConfig::from_environment(), depth);
     if (arguments.quiet) return;

@@ -18,6 +18,7 @@
 #include "session/usage_error.h"
 #include "world/compile.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
@@ -146,33 +147,33 @@ std::size_t array_size_for(const SubmitArguments& arguments) try {
     return kSlurmDefault;
 }
 
-/// Files that tasks must not find, and that are of use again if there will be no tasks: gives them other names, and
-/// puts those back that have not been removed.
-class PutAside {
+/// Hides files that the tasks of a submission must not find, by renaming them. The destructor gives them their names
+/// back, unless `remove` has deleted them: if the submission fails, the files are needed again.
+class HiddenFiles {
   public:
-    explicit PutAside(std::span<const fs::path> files) {
+    explicit HiddenFiles(std::span<const fs::path> files) {
         for (const fs::path& file : files) {
             std::error_code error;
-            fs::rename(file, aside(file), error);
+            fs::rename(file, hidden_name(file), error);
             if (!error) files_.push_back(file);
         }
     }
-    ~PutAside() {
+    ~HiddenFiles() {
         std::error_code ignored;
         for (const fs::path& file : files_)
-            if (!fs::exists(file, ignored)) fs::rename(aside(file), file, ignored);
+            if (!fs::exists(file, ignored)) fs::rename(hidden_name(file), file, ignored);
     }
-    PutAside(const PutAside&) = delete;
-    PutAside& operator=(const PutAside&) = delete;
+    HiddenFiles(const HiddenFiles&) = delete;
+    HiddenFiles& operator=(const HiddenFiles&) = delete;
 
     void remove() {
         std::error_code ignored;
-        for (const fs::path& file : files_) fs::remove(aside(file), ignored);
+        for (const fs::path& file : files_) fs::remove(hidden_name(file), ignored);
         files_.clear();
     }
 
   private:
-    static fs::path aside(fs::path file) { return file += ".replaced"; }
+    static fs::path hidden_name(fs::path file) { return file += ".replaced"; }
 
     std::vector<fs::path> files_;
 };
@@ -186,7 +187,7 @@ ExitCode run_submit(const SubmitArguments& arguments) {
     if (const std::string note = note_on_exposures(tasks, arguments.request.overrides); !note.empty())
         log_warning("{}", note);
     const fs::path& output = arguments.request.farm.output;
-    const std::size_t known = read_submissions(output).size();
+    const std::vector<Submission> known = read_submissions(output);
     const FarmWork work = find_farm_work(arguments.request, tasks, submitted_before(arguments));
     if (interrupt_requested()) {
         log_error("interrupted before anything was submitted");
@@ -200,8 +201,10 @@ ExitCode run_submit(const SubmitArguments& arguments) {
                                          arguments.request.parts, max_array_size));
     }
     const FileDescriptor lock = arguments.dry_run ? FileDescriptor() : lock_submissions(output);
-    if (read_submissions(output).size() != known)
-        throw IoError(fmt::format("another 'etendue submit' has submitted to {} meanwhile: call this one again",
+    const std::vector<Submission> earlier = read_submissions(output);
+    // A submission that supersedes another one does not change the number of submissions.
+    if (!arguments.dry_run && !std::ranges::equal(earlier, known, {}, &Submission::directory, &Submission::directory))
+        throw IoError(fmt::format("another 'etendue submit' has submitted to {} meanwhile: run this command again",
                                   output.string()));
     FarmPlan plan = plan_farm(work.images, arguments.request.farm, max_array_size);
     std::vector<std::string> jobs;
@@ -209,9 +212,8 @@ ExitCode run_submit(const SubmitArguments& arguments) {
         arguments.dry_run ? farm_directory(output) / "submit-DRY-RUN" : make_submission_directory(output);
     const SlurmFarm farm = make_slurm_farm(work, std::move(plan), arguments.slurm, directory);
     if (!arguments.dry_run) {
-        const std::vector<Submission> earlier = read_submissions(output);
-        PutAside useless(work.useless);
-        jobs = submit(farm);
+        HiddenFiles useless(work.useless);
+        jobs = submit(farm, [&] { useless.remove(); });
         useless.remove();
         remove_superseded(earlier, farm.submission);
     }

@@ -1,5 +1,6 @@
 #include "compare/comparison_measures.h"
 
+#include "compare/comparison_notes.h"
 #include "compare/image_pair.h"
 #include "metrics/convergence.h"
 #include "metrics/error_metrics.h"
@@ -21,8 +22,6 @@ namespace {
 constexpr const char* kRelMse = "relmse";
 constexpr const char* kTrimmed = "relmse-trimmed";
 constexpr const char* kFlip = "flip";
-/// The errors that the reference's noise, where it is known, is taken off.
-constexpr std::array kWithoutNoise{kRelMse, kTrimmed, "mse"};
 constexpr std::size_t kFoundRegions = 3;
 
 std::string key_of(ErrorMetric metric) {
@@ -164,20 +163,11 @@ std::optional<ReachedError> time_to_reach(const VariantReport& one, const Varian
     return ReachedError{reached->work, reached->extrapolated};
 }
 
-/// Is the share of the least relMSE above which a reference's own noise decides what ratios of errors are.
-constexpr double kMuchNoise = 0.1;
-
-/// Returns the relMSE that the noise of a reference that was not pooled has, or may have; a pooled one has that much in
-/// any case. 0 if nothing is known of it.
-double noise_of(const ReferenceReport& reference) {
-    if (reference.kind == "pooled") return 0.0;
-    return std::fmax(0.0, std::isnan(reference.noise_rel_mse) ? reference.most_noise : reference.noise_rel_mse);
-}
-
-/// Returns the relMSE that the reference's noise may have: by how much more the mean of the seeds is off than its own
-/// variance explains, of the best known variant that finds all light. A difference of another kind counts, too.
-double most_noise(std::span<const Variant> variants, std::span<const FinishedImages> images,
-                  const Reference& reference) {
+/// Returns the largest relMSE that the reference's noise can have: the relMSE of the mean of all seeds of one variant
+/// against the reference, less that mean's own variance. The variant is the one of least variance among those that find
+/// all light. Any other difference between the mean and the reference counts as noise, too.
+double noise_bound(std::span<const Variant> variants, std::span<const FinishedImages> images,
+                   const Reference& reference) {
     double least_variance = std::numeric_limits<double>::infinity();
     double noise = kUnknown;
     for (std::size_t v = 0; v < images.size(); ++v) {
@@ -194,16 +184,16 @@ void fill_ratios(PairReport& pair, const ComparisonReport& report, const Variant
     pair.ratios["rays_per_second"] = {.ratio = a.rays_per_second / b.rays_per_second};
     pair.ratios["efficiency"] = {.ratio = a.efficiency / b.efficiency};
     if (a.errors.empty()) return;
-    // The reference's noise draws ratios towards 1, or leaves little of the errors; all seeds share it, so that their
-    // scatter does not show it.
+    // The reference's noise draws ratios towards 1 or, taken off, leaves little of the errors. All seeds share this
+    // noise, so that their scatter does not show it.
     const double least = std::fmin(a.errors.at(kRelMse).mean(), b.errors.at(kRelMse).mean());
-    const bool is_drawn = noise_of(report.reference) > kMuchNoise * least;
+    const bool noise_decides = report.reference.is_noisy_for(least);
     for (const auto& [metric, values] : a.errors) {
         RatioInterval& ratio = pair.ratios[metric];
         ratio = ratio_interval(values.log_mean(), b.errors.at(metric).log_mean());
-        const bool has_noise =
-            report.reference.noise_rel_mse > 0.0 && std::ranges::find(kWithoutNoise, metric) == kWithoutNoise.end();
-        if (is_drawn || has_noise) ratio = {.ratio = ratio.ratio};
+        const bool keeps_noise = report.reference.noise_rel_mse > 0.0 &&
+                                 std::ranges::find(kErrorsWithoutNoise, metric) == kErrorsWithoutNoise.end();
+        if (noise_decides || keeps_noise) ratio = {.ratio = ratio.ratio};
         for (const VariantReport* const variant : {&a, &b})
             if (const std::string why = heavy_tail(*variant, metric); !why.empty()) {
                 ratio = {.ratio = ratio.ratio};
@@ -298,78 +288,10 @@ std::vector<PixelRect> whole_blocks(const PixelRect& window) {
     return blocks;
 }
 
-std::string unequal_times(const ComparisonReport& report) {
-    constexpr double kMostRatio = 1.1;
-    if (!report.seconds || report.variants.empty()) return "";
-    const auto time = [&](const VariantReport& variant) { return report.time_of(variant).mean(); };
-    const auto [least, most] = std::ranges::minmax_element(report.variants, {}, time);
-    const double ratio = time(*most) / time(*least);
-    if (!(ratio > kMostRatio)) return "";
-    return fmt::format(
-        "times are not equal: '{}' took {:.3g} s of {} in the mean, '{}' {:.3g} s, {:.0f}% more; look at ratios of "
-        "relMSE x time, or give more --time",
-        least->name, time(*least), report.by_wall ? "time on the clock" : "CPU time", most->name, time(*most),
-        100.0 * (ratio - 1.0));
-}
-
 void drop_drowned(ErrorsByMetric& errors) {
-    for (const char* metric : kWithoutNoise)
+    for (const char* metric : kErrorsWithoutNoise)
         if (SeedValues& measured = errors.at(metric); measured.mean() <= 0.0)
             std::ranges::fill(measured.values, kUnknown);
-}
-
-std::string drowned_errors(const ComparisonReport& report) {
-    std::vector<std::string> names;
-    for (const VariantReport& variant : report.variants)
-        if (std::ranges::any_of(kWithoutNoise, [&](const char* metric) {
-                const auto errors = variant.errors.find(metric);
-                return errors != variant.errors.end() && std::isnan(errors->second.mean());
-            }))
-            names.push_back(fmt::format("'{}'", variant.name));
-    for (const RegionReport& region : report.regions)
-        for (const RegionVariant& variant : region.variants)
-            if (const auto errors = variant.errors.find(kRelMse);
-                !region.found && errors != variant.errors.end() && std::isnan(errors->second.mean()))
-                names.push_back(fmt::format("'{}' in '{}'", variant.name, region.name));
-    if (!(report.reference.noise_rel_mse > 0.0) || names.empty()) return "";
-    return fmt::format(
-        "the reference's noise, a relMSE of {:.3g}, hides errors of {}, which are not known: a reference with less "
-        "noise, or more --seeds, would show them",
-        report.reference.noise_rel_mse, fmt::join(names, ", "));
-}
-
-std::string reference_noise(const ComparisonReport& report) {
-    const double noise = noise_of(report.reference);
-    double least = std::numeric_limits<double>::infinity();
-    for (const VariantReport& variant : report.variants)
-        if (const auto errors = variant.errors.find(kRelMse); errors != variant.errors.end())
-            least = std::fmin(least, errors->second.mean());
-    if (!std::isfinite(least) || !(noise > kMuchNoise * least)) return "";
-    const std::string share =
-        fmt::format("a relMSE of {:.3g}, is {:.0f}% of the least relMSE", noise, 100.0 * noise / least);
-    if (std::isnan(report.reference.noise_rel_mse))
-        return fmt::format(
-            "what tells the reference from the mean of all seeds, {}: its own noise, which is not known, or another "
-            "difference adds that to all errors and draws their ratios towards 1; they have no intervals",
-            share);
-    return fmt::format(
-        "the reference's own noise, {}: it is taken off relMSE and MSE as well as it is known, and adds to the other "
-        "errors; ratios have no intervals; a longer reference has less",
-        share);
-}
-
-std::string off_budget(const ComparisonReport& report) {
-    constexpr double kMostOff = 0.1;
-    std::vector<std::string> off;
-    if (!report.seconds) return "";
-    for (const VariantReport& variant : report.variants)
-        if (const double time = report.time_of(variant).mean(); std::abs(time / *report.seconds - 1.0) > kMostOff)
-            off.push_back(fmt::format("'{}' {:.3g} s", variant.name, time));
-    if (off.empty()) return "";
-    return fmt::format(
-        "renders took another time on average than the {:.3g} s of {} asked for: {}; with a longer --time the "
-        "difference is smaller, and ratios of relMSE x time allow for it",
-        *report.seconds, report.by_wall ? "time on the clock" : "CPU time", fmt::join(off, ", "));
 }
 
 ImageF luminances(const ImageF& image, const Rgb& weights) {
@@ -436,7 +358,7 @@ void measure(ComparisonReport& report, std::span<const Variant> variants, std::s
             report.metrics.push_back({key_of(metric), title_of(metric), formula_of(metric)});
         measure_flip(report, images, *reference, maps, context);
         if (std::isnan(report.reference.noise_rel_mse))
-            report.reference.most_noise = most_noise(variants, images, *reference);
+            report.reference.noise_bound = noise_bound(variants, images, *reference);
         report.metrics.push_back({kFlip, "HDR-FLIP", describe_hdr_flip(kFlipPixelsPerDegree, maps.exposures)});
     }
     const Rgb weights = context.colors.luminance_weights(report.working_space);

@@ -6,11 +6,15 @@
 #include "metrics/flip.h"
 #include "report/comparison_report.h"
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace etendue {
+
+/// Names the errors from which the reference's noise is taken off where this noise is known.
+inline constexpr std::array kErrorsWithoutNoise{"relmse", "relmse-trimmed", "mse"};
 
 /// Holds what all measures need: colours, threads and the images that were kept.
 struct MeasureContext {
@@ -32,21 +36,8 @@ struct ErrorMaps {
 /// Returns the luminance of each pixel of `image`, whose first channels are R, G and B.
 [[nodiscard]] ImageF luminances(const ImageF& image, const Rgb& weights);
 
-/// A note if the times of variants, which were to be equal, differ by more than a tenth; else empty.
-[[nodiscard]] std::string unequal_times(const ComparisonReport& report);
-
-/// Returns a note if a reference that was not pooled has, or may have, noise of more than a tenth of the least error;
-/// else empty.
-[[nodiscard]] std::string reference_noise(const ComparisonReport& report);
-
-/// Returns a note on the variants whose mean time is more than a tenth off the one that was asked for; else empty.
-[[nodiscard]] std::string off_budget(const ComparisonReport& report);
-
 /// Makes the squared errors unknown of whose mean over the seeds the reference's noise, taken off, has left nothing.
 void drop_drowned(ErrorsByMetric& errors);
-
-/// Returns a note on the variants of whose squared errors the reference's noise has left nothing; else empty.
-[[nodiscard]] std::string drowned_errors(const ComparisonReport& report);
 
 /// A part of the image to look at, in the full image's coordinates.
 struct NamedRegion {

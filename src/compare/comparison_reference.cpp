@@ -55,9 +55,9 @@ std::vector<Members> groups_of_light(std::span<const Variant> variants, std::spa
     std::vector<Members> groups;
     for (std::size_t v = 0; v < variants.size(); ++v) {
         if (!variants[v].cannot_find.empty()) continue;
-        const bool is_darker = std::ranges::any_of(
-            pairs, [&](const PairReport& pair) { return pair.comparable && pair.darker == variants[v].name; });
-        if (images[v].of_seeds.size() > 1 && (!images[v].block_size || is_darker)) {
+        const bool may_lack_light = std::ranges::any_of(
+            pairs, [&](const PairReport& pair) { return pair.comparable && pair.black_variant == variants[v].name; });
+        if (images[v].of_seeds.size() > 1 && (!images[v].block_size || may_lack_light)) {
             untested.push_back(v);
             continue;
         }
@@ -80,8 +80,7 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
     if (!untested.empty() && (groups.empty() || groups.front().size() < 2))
         return fmt::format(
             "so few bright pixels make up the image of {}, or parts of it, that no test can say whether it agrees with "
-            "another: more "
-            "--seeds, a larger --size, or a --crop without these pixels help; longer renders may not",
+            "another: more --seeds, a larger --size, or a --crop without these pixels help; longer renders may not",
             names_text(variants, untested));
     if (groups.empty() || groups.front().size() < 2)
         return "no two of the variants show the same light and find all of it, and none can be its own reference";
@@ -212,8 +211,8 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
                 const int size = std::max(*images[a].block_size, *images[b].block_size);
                 pair.agreement_options.block_size = size;
                 pair.agreement_options.significance = significance;
-                // What is found by chance is black, and looks sure of it, where chance has found nothing.
-                pair.agreement_options.black_is_known = !pair.comparable;
+                // Light that is found by chance leaves pixels black, without any variance, where chance has found none.
+                pair.agreement_options.black_is_certain = !pair.comparable;
                 // Of images that are still noisy the test of the whole says more than a fixed difference of means.
                 pair.agreement_options.mean_tolerance = std::numeric_limits<double>::infinity();
                 BlockAgreement tested = test_agreement(widened_estimate(images[a], size),
@@ -222,9 +221,9 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
                 tested.worst.x += variants[a].sampling.window.x0;
                 tested.worst.y += variants[a].sampling.window.y0;
                 if (tested.agree() && tested.black_in_a + tested.black_in_b > 0) {
-                    pair.darker = variants[tested.black_in_a > tested.black_in_b ? a : b].name;
+                    pair.black_variant = variants[tested.black_in_a > tested.black_in_b ? a : b].name;
                     pair.not_tested =
-                        fmt::format("'{}' is black in places where chance may have hidden light from it", pair.darker);
+                        fmt::format("'{}' is black in places where it may lack light by chance", pair.black_variant);
                 } else {
                     pair.agreement = tested;
                 }
@@ -277,8 +276,7 @@ std::optional<Reference> pool_reference(std::span<const Variant> variants, std::
     if (!untested.empty())
         notes.push_back(
             fmt::format("the reference has no part of {}: so few bright pixels make up the image, or parts of it, that "
-                        "no test can say "
-                        "whether it agrees with the others, against which its errors are measured",
+                        "no test can say whether it agrees with the others, against which its errors are measured",
                         names_text(variants, untested)));
     const Variant& first = variants[members.front()];
     const std::string& integrator = first.settings.integrator.type;

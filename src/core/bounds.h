@@ -27,7 +27,7 @@ struct Bounds {
     }
 };
 
-/// Returns bounds of the box `bounds` that `m` places; empty if `bounds` are.
+/// Returns the bounds of the box `bounds` after the transform `m`; empty bounds stay empty.
 [[nodiscard]] inline Bounds placed(const Bounds& bounds, const Mat4f& m) {
     Bounds result;
     if (bounds.empty()) return result;

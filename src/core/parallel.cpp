@@ -78,12 +78,12 @@ FlushDenormals::~FlushDenormals() {
 
 namespace {
 
-/// Throws IoError unless so many threads can run at once beside the caller, and those of libraries. TBB and OpenEXR,
-/// which start theirs when there is work, end the process where they get none.
-void require_threads(int of_pool) {
-    if (of_pool == 0) return;
-    constexpr int kOfLibraries = 4;
-    const int count = of_pool + kOfLibraries;
+/// Throws IoError unless `pool_threads`, and some threads of libraries, can run at once beside the caller. TBB and
+/// OpenEXR start threads when there is work, and end the process if they get none.
+void require_threads(int pool_threads) {
+    if (pool_threads == 0) return;
+    constexpr int kLibraryThreads = 4;
+    const int count = pool_threads + kLibraryThreads;
     std::mutex mutex;
     std::vector<std::jthread> threads;
     const std::lock_guard until_all_are_asked_for(mutex);
@@ -93,7 +93,7 @@ void require_threads(int of_pool) {
         throw IoError(fmt::format(
             "only {} of {} threads can be started, {} of them for libraries: {}; ask for fewer (--threads), or "
             "raise the limit (ulimit -u)",
-            threads.size() + 1, count + 1, kOfLibraries, error.code().message()));
+            threads.size() + 1, count + 1, kLibraryThreads, error.code().message()));
     }
 }
 

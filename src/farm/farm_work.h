@@ -30,7 +30,7 @@ struct FarmWork {
     std::vector<ImageJob> busy;     ///< tasks that were submitted before are still at them
     std::vector<ImageJob> up_to_date;
     std::vector<SubmittedImage> failed;          ///< with what is wrong with them
-    std::vector<std::filesystem::path> useless;  ///< files to be removed before anything is submitted
+    std::vector<std::filesystem::path> useless;  ///< files that tasks must not find
 };
 
 /// Loads scenes and looks at their images; `earlier` is what became of earlier submissions. What is wrong with one

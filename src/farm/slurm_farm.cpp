@@ -69,7 +69,7 @@ std::vector<std::string> submit_command(const SlurmFarm& farm, std::size_t array
     return sbatch_command(directory / (it.name + ".sh"), directory, dependency);
 }
 
-std::vector<std::string> submit(const SlurmFarm& farm) {
+std::vector<std::string> submit(const SlurmFarm& farm, const std::function<void()>& on_kept) {
     for (const SubmittedImage& image : farm.submission.images)
         for (const SubmittedTask& task : image.tasks) make_folder(task.makes.parent_path());
     write_submission(farm.submission, farm.plan, farm.options);
@@ -87,7 +87,9 @@ std::vector<std::string> submit(const SlurmFarm& farm) {
                                       error.what(), kept, farm.plan.arrays.size()));
         }
         // An array of parts is of no use without its merge, which comes right behind all that it waits for.
-        if (!is_waited_for[array]) kept = array + 1;
+        if (is_waited_for[array]) continue;
+        kept = array + 1;
+        on_kept();
     }
     return jobs;
 }

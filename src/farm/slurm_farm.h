@@ -29,8 +29,9 @@ struct SlurmFarm {
                                                       const std::vector<std::string>& jobs);
 
 /// Makes the folders of images and parts, writes the submission and submits all arrays. Returns the numbers of the
-/// jobs. If Slurm refuses an array, or the user interrupts this, those that were to be merged together with it are
-/// cancelled, the others stay, and IoError says how many they are.
-std::vector<std::string> submit(const SlurmFarm& farm);
+/// jobs. Calls `on_kept` whenever it is certain that Slurm will run an array, whatever becomes of the others. If Slurm
+/// refuses an array, or the user interrupts this, the arrays that were to be merged together with it are cancelled, the
+/// others stay, and IoError says how many they are.
+std::vector<std::string> submit(const SlurmFarm& farm, const std::function<void()>& on_kept);
 
 }  // namespace etendue

@@ -90,12 +90,13 @@ FileDescriptor lock_submissions(const fs::path& output) {
     FileDescriptor opened(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
     if (!opened.is_open())
         throw IoError(fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno)));
-    if (::flock(opened.get(), LOCK_EX | LOCK_NB) != 0)
-        throw IoError(
-            fmt::format("another 'etendue submit' is submitting to {} now: call this one again once that one "
-                        "has ended",
-                        output.string()));
-    return opened;
+    if (::flock(opened.get(), LOCK_EX | LOCK_NB) == 0) return opened;
+    if (errno != EWOULDBLOCK)
+        throw IoError(fmt::format("cannot lock {}: {}", file.string(), std::generic_category().message(errno)));
+    throw IoError(
+        fmt::format("another 'etendue submit' is submitting to {} now: run this command again when the other one "
+                    "has ended",
+                    output.string()));
 }
 
 fs::path make_submission_directory(const fs::path& output) {
@@ -104,7 +105,7 @@ fs::path make_submission_directory(const fs::path& output) {
     fs::create_directories(parent, error);
     const auto now = std::chrono::system_clock::now();
     const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count();
-    // Sorted by name they are sorted by time, which universal time alone never turns back.
+    // Names sort in the order of time: unlike local time, universal time is never set back.
     const std::string name = fmt::format("{}{:%Y%m%d-%H%M%S}{:03}", kDirectoryPrefix,
                                          fmt::gmtime(std::chrono::system_clock::to_time_t(now)), milliseconds % 1000);
     // The jobs of different output directories have different names, too.

@@ -48,7 +48,8 @@ struct Submission {
 };
 
 /// Keeps other processes from submitting to `output` until the result is destroyed: they would submit the same images.
-/// Throws IoError if one does so now, or if no file can be made in the directory, which is created.
+/// Creates `farm_directory(output)`. Throws IoError if another process is submitting now, or if no file can be made in
+/// that directory.
 [[nodiscard]] FileDescriptor lock_submissions(const std::filesystem::path& output);
 
 /// Makes a directory of its own for a new submission below the output directory. Throws IoError.

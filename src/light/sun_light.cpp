@@ -11,8 +11,9 @@ namespace etendue {
 
 namespace {
 
-/// Returns one minus the cosine of half of `angle`, of a disk that has directions in single precision.
-float height_of(float angle) {
+/// Returns one minus the cosine of half of `angle`: the height of the sun's disk as a cap of the unit sphere. Angles
+/// below 1e-5 count as 1e-5, so that the disk has directions in single precision.
+float cap_height(float angle) {
     constexpr float kSmallest = 1e-5f;
     const float sine = std::sin(0.25f * std::max(angle, kSmallest));
     return 2.0f * sine * sine;
@@ -22,7 +23,7 @@ float height_of(float angle) {
 
 SunLight::SunLight(const Vec3f& direction, const Rgb& irradiance, float angle)
     : direction_(direction),
-      height_(height_of(angle)),
+      height_(cap_height(angle)),
       pdf_(0.5f * kInvPi / height_),
       // The mean cosine to the middle, over a cap of the sphere, is (1 + cosine at its edge) / 2.
       radiance_(irradiance * (2.0f / (2.0f - height_) * pdf_)) {}
@@ -37,7 +38,7 @@ float SunLight::pdf_solid_angle(const Vec3f& direction) const {
 }
 
 Vec3f SunLight::sample_direction(Vec2f u) const {
-    return normalize(Frame::from_normal(direction_).to_world(square_to_cone_of_height(u, height_)));
+    return normalize(Frame::from_normal(direction_).to_world(square_to_spherical_cap(u, height_)));
 }
 
 LightSample SunLight::sample(const Vec3f&, Vec2f u) const {

@@ -37,7 +37,7 @@ class SunLight {
     [[nodiscard]] Vec3f sample_direction(Vec2f u) const;
 
     Vec3f direction_;
-    float height_;  ///< one minus the cosine of half the angle
+    float height_;  ///< height of the disk as a cap of the unit sphere: one minus the cosine of half the angle
     float pdf_;     ///< 1/sr, of each direction within the disk
     Rgb radiance_;  ///< W/(m² sr)
 };

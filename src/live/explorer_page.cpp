@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -85,7 +84,9 @@ LiveAnswer ExplorerPage::follow(const LiveRequest& request) {
                                     .integrator = asked.at("integrator").get<std::string>(),
                                     .max_depth = static_cast<int>(std::min<std::uint64_t>(depth, 1 << 20)),
                                     .more = asked.at("more").get<std::string>()};
-        explorer_.choose(asked.at("index").get<std::size_t>(), choice);
+        const auto index = asked.at("index").get<std::size_t>();
+        if (index > 1) throw UsageError("the page has only two sides, 0 and 1");
+        explorer_.choose(index, choice);
     }
     return LiveAnswer::json("{}");
 }
@@ -104,8 +105,6 @@ LiveAnswer ExplorerPage::answer(const LiveRequest& request) {
             return LiveAnswer::refused(error.what());
         } catch (const SceneError& error) {
             return LiveAnswer::refused(error.what());
-        } catch (const std::out_of_range&) {
-            return LiveAnswer::refused("there are two sides, 0 and 1");
         } catch (const nlohmann::json::exception&) {
             return LiveAnswer::refused("the page sent what is not understood");
         }

@@ -81,8 +81,9 @@ inline constexpr std::string_view kSettingsName = "render.json";
 /// The frames that these settings ask for; none if they ask for none.
 [[nodiscard]] std::optional<FrameRange> find_frames(const std::filesystem::path& path);
 
-/// Every file that the scene directory or file `path` may be read from: scene files, render.json and what their JSON
-/// names, which need not exist. Nothing else is read of them, and what cannot be read is left out.
+/// Returns every file that the scene directory or file `path` may be read from: scene files, render.json and what their
+/// JSON names, beside them or in the directories `assets`. These files need not exist. Only JSON is read, and JSON that
+/// cannot be read is left out.
 [[nodiscard]] std::vector<std::filesystem::path> find_inputs(const std::filesystem::path& path,
                                                              std::span<const std::filesystem::path> assets = {});
 

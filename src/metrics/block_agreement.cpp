@@ -86,7 +86,7 @@ class EffectiveCount {
     double squares_ = 0.0;
 };
 
-/// Is how many values a mean takes for its variance to be known.
+/// Is the least number of values whose mean has a variance that is known well enough.
 constexpr double kMany = 100.0;
 
 /// Returns false if few of the values of a region make up its mean; or, unless the region `is_whole`, the variance of
@@ -295,7 +295,7 @@ BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, co
         for (int channel = 0; channel < a.mean.channels; ++channel) {
             const BlockDifference difference = compare(a, b, region, channel, options.block_tolerance);
             block_errors.push_back(relative_error(difference));
-            if (!options.black_is_known && std::abs(difference.z) > critical) {
+            if (!options.black_is_certain && std::abs(difference.z) > critical) {
                 if (difference.mean_a == 0.0) ++result.black_in_a;
                 if (difference.mean_b == 0.0) ++result.black_in_b;
                 if (difference.mean_a == 0.0 || difference.mean_b == 0.0 || has_black_blocks) continue;

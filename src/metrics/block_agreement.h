@@ -27,9 +27,9 @@ struct AgreementOptions {
     double significance = 0.01;  ///< probability that any block fails although both images are right
     double mean_tolerance = 0.01;  ///< most relative difference between the means of the whole images
     double block_tolerance = 0.0;  ///< relative; smaller differences of a block count as none: what rounding explains
-    /// Whether a block that is black in one image, and has no variance there, is known to be black. If it is not,
-    /// blocks that differ so, and with them the whole image, are left out.
-    bool black_is_known = true;
+    /// Tells whether a block that is black and without variance in one image is certainly black. Otherwise, chance may
+    /// have hidden its light: tests that only such blocks fail are left out, also that of the whole image.
+    bool black_is_certain = true;
 };
 
 /// From at least two independent renders of one shape, which differ in nothing but their seed. Throws
@@ -55,7 +55,8 @@ void pool_variance(ImageEstimate& estimate, int block_size);
 /// blocks next to it, and neither variance is known. Of every block's values, over its pixels in all renders, 100 or
 /// more count for the mean, or a quarter of all (Kish 1965: (sum x)² / sum x²), and 4 or more, or a hundredth of all,
 /// for the variance (the same of squared deviations from the pixel's mean), but in the last size, which is that of the
-/// whole image; nothing if even there the mean hangs on few, if all is black, or if there are fewer than 100 values.
+/// whole image. Returns nothing if even there few values make up the mean, if all is black, or if there are fewer than
+/// 100 values.
 [[nodiscard]] std::optional<int> testable_block_size(std::span<const ImageF> renders, int least);
 
 /// A block, or the whole image, and how it differs.
@@ -77,8 +78,8 @@ struct BlockAgreement {
     double p_value = 1.0;           ///< p-value of the worst block, corrected for the number of tests (Sidak 1967)
     std::size_t tests = 0;          ///< blocks and the whole image, times channels
     bool whole_image_only = false;  ///< the whole image is the only block, so that no part of it was tested by itself
-    std::size_t black_in_a = 0;     ///< tests left out because `a` is black there, and `b` by its variance is not
-    std::size_t black_in_b = 0;     ///< tests left out because `b` is black there, and `a` by its variance is not
+    std::size_t black_in_a = 0;     ///< tests left out because `a` is black and `b`, by its variance, is not
+    std::size_t black_in_b = 0;     ///< tests left out because `b` is black and `a`, by its variance, is not
     BlockDifference worst;
     /// Largest relative difference of the images' means over the channels.
     double mean_difference = 0.0;

@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// Returns `fps` as a ratio: whole, a whole number by 1.001 as television has it, or in thousandths; nothing below one
-/// of these, or above a million.
+/// Returns `fps` as a ratio: a whole number, a whole number over 1.001 as in television, or a number of thousandths.
+/// Returns nothing if `fps` is below a thousandth or above a million.
 [[nodiscard]] std::optional<ImageRational> frames_per_second(double fps);
 
 /// Returns the SMPTE time code of frame number `frame`, counted without dropping; nothing for frames below 0, beyond a

@@ -50,7 +50,7 @@ struct BrightContribution {
 
 /// A file that the image depends on.
 struct InputFile {
-    /// Stands in `modified` for a file that changed while it was read. 0 is a time that archives give to files.
+    /// Stands in `modified` for a file that changed while it was read. It is not 0, a time that archives give to files.
     static constexpr std::int64_t kChanged = -1;
 
     std::string path;                  ///< from the scene's directory, or absolute

@@ -195,7 +195,7 @@ std::optional<std::string> few_buckets(const RenderStatistics& statistics) {
 
 namespace {
 
-/// Returns whether all pixels have the same number of samples in `film` and in `half`.
+/// Returns whether all pixels of `film` have equally many samples, and all pixels of `half` have, too.
 bool have_one_share(const Film& film, const Film& half) {
     const auto is_even = [](const Film& of) {
         const auto [least, most] = std::ranges::minmax(of.sums(), {}, &PixelSum::samples);
@@ -219,8 +219,8 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     const bool has_halves = description.has_halves && state.every_other_pass && state.every_other_spp > 0 &&
                             state.every_other_spp < state.spp_done && description.buckets.count == 0;
     if (!has_halves || frame.layers.empty()) return;
-    // Each pixel has a share of its own where passes were for some pixels, one was cut short, or parts were of
-    // different samples.
+    // The half has a different share of each pixel's samples if passes were for some pixels only, if one was cut short,
+    // or if merged parts were of different samples.
     const bool is_uneven =
         !state.adaptive.is_uniform() || state.pass_size > 0 || !have_one_share(state.film, *state.every_other_pass);
     const std::optional<Film> evened =

@@ -70,7 +70,7 @@ bool prepare(const Start& start, int& failure) {
     if (nothing == STDIN_FILENO && ::fcntl(STDIN_FILENO, F_SETFD, 0) != 0) return false;
     // Sockets that a library has accepted are open for children, too; a kernel that cannot close them leaves them so.
     (void)::close_range(kFirstFree, ~0u, CLOSE_RANGE_CLOEXEC);
-    // What this process and its libraries ignore, exec would pass on.
+    // The child would go on ignoring the signals that this process and its libraries ignore.
     for (const int number : {SIGPIPE, SIGXFSZ})
         if (::signal(number, SIG_DFL) == SIG_ERR) return false;
     if (start.memory && ::setrlimit(RLIMIT_DATA, &*start.memory) != 0) return false;

@@ -29,7 +29,7 @@ std::string machine_id() {
     return fmt::format("{} {}", boot, std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string());
 }
 
-/// Returns what the kernel says of the process; none if it does not run, or if /proc hides it from this user.
+/// Returns the line of /proc/PID/stat; none if the process does not exist, or if /proc hides it from this user.
 std::optional<std::string> stat_of(std::int64_t pid) {
     std::ifstream file(fmt::format("/proc/{}/stat", pid));
     std::string text;
@@ -37,8 +37,8 @@ std::optional<std::string> stat_of(std::int64_t pid) {
     return text;
 }
 
-/// Returns when the process of which the kernel says `text` started, in clock ticks since the system did; none if it
-/// has ended and nobody has asked for it yet.
+/// Returns when a process started, in clock ticks since the system started, from `text`, its line of /proc/PID/stat;
+/// none if the process is a zombie: it has ended, and its parent has not waited for it yet.
 std::optional<std::uint64_t> start_time_in(const std::string& text) {
     // The name in parentheses, which may hold anything, is the second field; the state is the third, the start the
     // 22nd.

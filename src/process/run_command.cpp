@@ -42,13 +42,13 @@ pid_t start(const std::vector<std::string>& words, const Pipe& out, const Pipe& 
     int error = ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, out.writer.get(), STDOUT_FILENO);
     if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, err.writer.get(), STDERR_FILENO);
-    // What this process ignores ends others, as they expect.
+    // Commands expect that these signals, which this process ignores, end them.
     posix_spawnattr_t attributes;
     if (const int failure = ::posix_spawnattr_init(&attributes)) throw_error(words.front(), failure);
-    sigset_t ended_by;
-    ::sigemptyset(&ended_by);
-    for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaddset(&ended_by, signal);
-    if (error == 0) error = ::posix_spawnattr_setsigdefault(&attributes, &ended_by);
+    sigset_t default_signals;
+    ::sigemptyset(&default_signals);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaddset(&default_signals, signal);
+    if (error == 0) error = ::posix_spawnattr_setsigdefault(&attributes, &default_signals);
     if (error == 0) error = ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     if (error == 0) error = ::posix_spawnp(&pid, words.front().c_str(), &actions, &attributes, argv.data(), environ);
     ::posix_spawnattr_destroy(&attributes);

@@ -65,6 +65,16 @@ std::string heavy_tail(const VariantReport& variant, const std::string& metric) 
     return fmt::format("0.1% of the values hold {} of the relMSE of '{}'", human_percent(of_largest), variant.name);
 }
 
+double ReferenceReport::noise() const {
+    if (kind == "pooled") return 0.0;
+    return std::fmax(0.0, std::isnan(noise_rel_mse) ? noise_bound : noise_rel_mse);
+}
+
+bool ReferenceReport::is_noisy_for(double error) const {
+    constexpr double kMuch = 0.1;
+    return noise() > kMuch * error;
+}
+
 double PairReport::smallest_of_image() const {
     if (!agreement) return kUnknown;
     return smallest_difference(agreement->mean_error, agreement_options.significance, agreement->tests);

@@ -102,7 +102,8 @@ struct PairReport {
     std::string different_light{};  ///< why they show different light by what was asked for; empty if they do not
     bool comparable = true;         ///< they show the same light, and both find all of it
     std::string not_tested{};       ///< why a test says nothing of them, the end of a sentence; empty if it does
-    std::string darker{};           ///< the one that is black where the other is not, if that is why; else empty
+    /// Names the variant that is black where the other is not, if this is why they are not tested; else empty.
+    std::string black_variant{};
     std::optional<BlockAgreement> agreement{};
     AgreementOptions agreement_options{};
 
@@ -177,11 +178,17 @@ struct ReferenceReport {
     std::string text{};                       ///< a sentence
     std::map<std::string, double> weights{};  ///< weights of variants in a pooled reference
     double noise_rel_mse = kUnknown;          ///< relMSE of the reference's own noise, which squared errors are without
-    double most_noise = kUnknown;             ///< relMSE that this noise may have, where it is not known
+    double noise_bound = kUnknown;            ///< largest relMSE that the reference's own noise can have, if not known
     SeedRange seeds{};                        ///< seeds that it was pooled from or rendered with; else none
     std::uint32_t spp = 0;                    ///< samples per pixel of all renders, if it was rendered
     double seconds = kUnknown;                ///< seconds of these renders
     double cpu_seconds = kUnknown;
+
+    /// Returns the relMSE that the reference's own noise has, or can have at most. Returns 0 if nothing is known of
+    /// this noise, and for a pooled reference, whose noise is much of the errors in any case.
+    [[nodiscard]] double noise() const;
+    /// Returns whether `noise()` is over a tenth of the relMSE `error`, so that noise decides ratios of such errors.
+    [[nodiscard]] bool is_noisy_for(double error) const;
 };
 
 /// Holds the values that the first and the last colour of a kind of maps stand for.

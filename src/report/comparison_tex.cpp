@@ -195,7 +195,7 @@ std::string to_tex(const ComparisonReport& report) {
         "\\providecommand{{\\bottomrule}}{{\\hline}}\n\n% {}\n{}",
         report.program, shown_text(report.command),
         report.seeds > 1 ? fmt::format("Means and standard deviations over {} seeds.", report.seeds)
-                         : "One seed, which tells nothing of chance.",
+                         : "A single seed does not show its noise.",
         tex_table(columns_of(variants), variants));
     if (report.pairs.empty()) return text;
     const auto pairs = pair_rows(report);

@@ -5,7 +5,7 @@
 
 namespace etendue {
 
-/// Returns `text`, as `shown_text` shows it, in quotes where RFC 4180 asks for them: around a comma or a quote.
+/// Returns `text` as `shown_text` shows it, and in quotes if it contains a comma or a quote (RFC 4180).
 [[nodiscard]] std::string csv_field(const std::string& text);
 
 /// Returns nine digits of `value`; nothing of what is not finite.

@@ -13,7 +13,7 @@ LogEstimate product(const LogEstimate& a, const LogEstimate& b) {
 }
 
 RatioInterval ratio_interval(const LogEstimate& a, const LogEstimate& b, double confidence) {
-    // A quotient's variance and degrees of freedom are those of a product.
+    // The logarithms of a quotient and of a product have equal variances and degrees of freedom.
     const LogEstimate spread = product(a, b);
     const double difference = a.value - b.value;
     // Where nothing varies, Student's distribution has no degrees of freedom.

@@ -73,9 +73,9 @@ template <typename T = float>
     return {r * phi.cos, r * phi.sin, z};
 }
 
-/// Maps the unit square to the cone of directions around +z whose half angle has one minus the cosine `height`, > 0,
-/// uniformly. In single precision, cosines of small angles are those of others, too.
-[[nodiscard]] inline Vec3f square_to_cone_of_height(Vec2f u, float height) {
+/// Maps the unit square uniformly to the cap of the unit sphere around +z that has this `height` > 0: one minus the
+/// cosine of the cone's half angle. In single precision, the cosine itself cannot tell small angles apart.
+[[nodiscard]] inline Vec3f square_to_spherical_cap(Vec2f u, float height) {
     const float one_minus_z = u.y * height;
     const float r = std::sqrt(std::max(0.0f, one_minus_z * (2.0f - one_minus_z)));
     const SinCos phi = sin_cos_turns(u.x);
@@ -83,7 +83,7 @@ template <typename T = float>
 }
 /// Maps the unit square to the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
 [[nodiscard]] inline Vec3f square_to_cone(Vec2f u, float cos_max) {
-    return square_to_cone_of_height(u, 1.0f - cos_max);
+    return square_to_spherical_cap(u, 1.0f - cos_max);
 }
 [[nodiscard]] inline float cone_pdf_solid_angle(const Vec3f& w, float cos_max) {
     return w.z >= cos_max ? kInvPi * 0.5f / (1.0f - cos_max) : 0.0f;

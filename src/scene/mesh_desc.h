@@ -83,8 +83,9 @@ struct NodeDesc {
     std::uint32_t parent = kNone;  ///< index into SceneDesc::nodes, smaller than its own; kNone at the top
     std::uint32_t number = 0;      ///< number of the node in the file
     Mat4f to_world{};              ///< in the middle of the shutter, from the scene's origin
-    TransformMotion
-        motion{};  ///< `to_world` while the shutter is open; empty if it stands still or is flat at some time
+    /// Holds `to_world` at equally spaced times while the shutter is open; empty if the node stands still, or is flat
+    /// at some time.
+    TransformMotion motion{};
 
     [[nodiscard]] Vec3f position() const { return {to_world[3][0], to_world[3][1], to_world[3][2]}; }
 };

@@ -125,8 +125,8 @@ struct MetadataSettings {
 /// Stands in `RenderSettings::animations` for no animation.
 inline constexpr std::string_view kNoAnimation = "none";
 
-/// The farthest that anything may be from the scene's origin along an axis, metres: squares of distances between any
-/// two places, and rays from outside all of them, stay far within single precision.
+/// Is the farthest that anything may be from the scene's origin along an axis, metres. Within it, squares of distances
+/// between any two places, and rays from outside all of them, stay far within the range of single precision.
 inline constexpr double kFarthest = 1e15;
 
 /// Places a camera, in the world that the scene's file describes.

@@ -219,7 +219,7 @@ std::optional<Checkpoint> read_sums(const std::filesystem::path& file, const Che
         simplify(kept.state, expected);
         return kept;
     } catch (const RefusedCheckpoint&) {
-        // Of another version, as sums of other renders are.
+        // Sums that another version wrote are left out, like sums of other renders.
     } catch (const DamagedCheckpoint& broken) {
         if (!quiet) log_warning("warning: {}; the image begins anew", broken.what());
     } catch (const IoError& failure) {

@@ -86,7 +86,7 @@ ImageResult run_job(const ImageJob& job, SceneRenderRequest request, const Threa
     const OutputPaths paths = OutputPaths::beside(job.output, request.overrides.png);
     if (!request.force && !is_partial(job.output) && has_strategies_image(request.strategies, paths) &&
         is_up_to_date(paths, job.scene, prepared.scene, request.overrides.depth)) {
-        // Of a render that was stopped after its image was complete; a newer one is of a longer render.
+        // A checkpoint older than the image is of the render that made the image; a newer one is of a longer render.
         if (const CheckpointFiles checkpoints(job.output); !checkpoints.are_newer_than(paths.json))
             checkpoints.remove();
         return result;

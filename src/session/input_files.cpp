@@ -63,7 +63,7 @@ std::vector<InputFile> stamp_inputs(const SceneDesc& scene, fs::file_time_type s
     files.reserve(scene.inputs.size());
     for (const fs::path& input : scene.inputs) {
         const Stamp stamp = stamp_of(input).value_or(Stamp{});
-        // Times to come are no times of a change.
+        // A time in the future cannot be that of a change while the file was read.
         const bool is_known =
             stamp.modified < nanoseconds(started) || stamp.modified > nanoseconds(fs::file_time_type::clock::now());
         files.push_back(

@@ -18,12 +18,12 @@ namespace etendue {
 void require_files_kept(std::string_view option, std::span<const std::filesystem::path> outputs,
                         std::vector<std::filesystem::path> inputs);
 
-/// Name, size and time of each input of `scene`, without content. One that has changed since `started`, when the first
-/// of them was read, has the time kChanged: nobody knows what of it was read.
+/// Returns name, size and time of each input of `scene`, without content. An input that has changed since `started`,
+/// when the first input was read, has the time InputFile::kChanged: nobody knows which of its content was read.
 [[nodiscard]] std::vector<InputFile> stamp_inputs(const SceneDesc& scene, std::filesystem::file_time_type started);
 
-/// Fills in the content of `files`, the stamps of the inputs of `scene`. A file that is another by now gets kChanged.
-/// Throws IoError if one cannot be read.
+/// Fills in the content of `files`, the stamps of the inputs of `scene`. A file that has changed since its stamp gets
+/// the time InputFile::kChanged. Throws IoError if a file cannot be read.
 void hash_inputs(const SceneDesc& scene, std::span<InputFile> files);
 
 /// Returns the path of `input` from `directory`, which is the same wherever `directory` lies and however it is named,

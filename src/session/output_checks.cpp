@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -23,11 +24,6 @@ namespace {
 
 OutputPaths paths_of(const PlannedOutput& planned) {
     return OutputPaths::beside(planned.output, planned.request.overrides.png);
-}
-
-/// Returns the layers that are written into files of their own.
-std::vector<std::string> layers_of(const PlannedOutput& planned) {
-    return layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
 }
 
 void require_all_writable(const OutputPaths& paths) {
@@ -47,16 +43,16 @@ void require_no_settings(const std::filesystem::path& statistics, const std::fil
                         statistics.string()));
 }
 
-/// Throws if the image of strategies cannot be written, or would show nothing.
-void check_strategies(const PlannedOutput& planned) {
+/// Throws if the image of strategies cannot be written, would replace a file of the `image`, or would show nothing.
+void check_strategies(const PlannedOutput& planned, std::span<const std::filesystem::path> image) {
     const std::filesystem::path& strategies = planned.request.strategies.output;
     const OutputPaths pyramid = OutputPaths::beside(strategies);
     require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()), std::array{pyramid.exr, pyramid.png},
                         planned.scene.files_to_keep());
     require_all_writable(pyramid);
     require_strategies(planned.scene.settings, {"--strategies-image", {}});
-    check_strategies_request(planned.request.strategies, files_of_image(planned.output, layers_of(planned)),
-                             planned.scene.settings, planned.options, planned.request.overrides.depth);
+    check_strategies_request(planned.request.strategies, image, planned.scene.settings, planned.options,
+                             planned.request.overrides.depth);
 }
 
 }  // namespace
@@ -74,7 +70,7 @@ void require_no_layer_of_another(const std::filesystem::path& output) {
     }
 }
 
-void require_free(const std::filesystem::path& layer, const SourceLocation& where) {
+void require_no_image_at(const std::filesystem::path& layer, const SourceLocation& where) {
     require_writable(layer);
     const std::filesystem::path other = OutputPaths::beside(layer).json;
     if (std::filesystem::exists(other))
@@ -86,9 +82,10 @@ void require_free(const std::filesystem::path& layer, const SourceLocation& wher
 
 void check_outputs(const PlannedOutput& planned) {
     const std::filesystem::path& output = planned.output;
-    const std::vector<std::string> layers = layers_of(planned);
-    require_inputs_kept(fmt::format("--output {}", output.string()), files_of_image(output, layers),
-                        planned.scene.files_to_keep());
+    const std::vector<std::string> layers =
+        layers_with_files(planned.aovs, planned.scene.settings.aov_layout == AovLayout::Files);
+    const std::vector<std::filesystem::path> files = files_of_image(output, layers);
+    require_inputs_kept(fmt::format("--output {}", output.string()), files, planned.scene.files_to_keep());
     if (!is_partial(output)) require_no_settings(paths_of(planned).json, planned.scene.directory);
     if (is_partial(output)) {
         if (intersection(planned.options.window, planned.options.splat_window) != planned.options.window)
@@ -101,8 +98,8 @@ void check_outputs(const PlannedOutput& planned) {
     require_all_writable(paths_of(planned));
     require_no_layer_of_another(output);
     for (const std::string& layer : layers)
-        require_free(layer_path(output, layer), planned.scene.settings.at("/aov_layout"));
-    if (!planned.request.strategies.output.empty()) check_strategies(planned);
+        require_no_image_at(layer_path(output, layer), planned.scene.settings.at("/aov_layout"));
+    if (!planned.request.strategies.output.empty()) check_strategies(planned, files);
 }
 
 void require_depths_of_part(const std::filesystem::path& output, const RenderOptions& options, const AovPlan& aovs,

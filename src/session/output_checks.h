@@ -25,12 +25,12 @@ struct PlannedOutput {
 /// render, and IoError if one cannot be written.
 void check_outputs(const PlannedOutput& planned);
 
-/// Throws SceneError if the image `output` has the name of another one's layer: of NAME, if it is NAME.LAYER.
+/// Throws SceneError if `output`, such as NAME.LAYER.exr, has the name of a layer of another image, NAME.exr.
 void require_no_layer_of_another(const std::filesystem::path& output);
 
-/// Throws SceneError, at `where` layers are asked for, if the file `layer` is an image of its own, and IoError if it
-/// cannot be written.
-void require_free(const std::filesystem::path& layer, const SourceLocation& where);
+/// Throws SceneError with the place `where` if the file of a layer, `layer`, is an image of its own already. Throws
+/// IoError if the file cannot be written.
+void require_no_image_at(const std::filesystem::path& layer, const SourceLocation& where);
 
 /// Throws SceneError if `output` is a part whose depths would lack light that its integrator finds for other pixels.
 void require_depths_of_part(const std::filesystem::path& output, const RenderOptions& options, const AovPlan& aovs,

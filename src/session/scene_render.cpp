@@ -278,10 +278,10 @@ class SceneRender {
     [[nodiscard]] RenderResult render_from(const World& world, RenderState state) {
         ProgressDisplay display(title(), request_.quiet || request_.progress_descriptor >= 0);
         PhaseTimer since_checkpoint;
-        // Each checkpoint has samples that the one before lacks, however often they are asked for.
-        std::atomic<bool> has_gone_on = false;
+        // Each checkpoint has samples that the previous one lacks, however often checkpoints are asked for.
+        std::atomic<bool> has_new_samples = false;
         const auto checkpoint_is_due = [&] {
-            return request_.checkpoint_minutes > 0.0 && has_gone_on &&
+            return request_.checkpoint_minutes > 0.0 && has_new_samples &&
                    since_checkpoint.elapsed().wall >= request_.checkpoint_minutes * 60.0;
         };
         ShowingTimes showings;
@@ -302,12 +302,12 @@ class SceneRender {
                 if (!checkpoint_is_due()) return;
                 write_checkpoint(now);
                 since_checkpoint = {};
-                has_gone_on = false;
+                has_new_samples = false;
             }};
         return render(
             world, *integrator_, options_, threads_, interrupt_requested(),
             [&](const RenderProgress& now) {
-                has_gone_on = true;
+                has_new_samples = true;
                 display.update(now);
                 progress_pipe_.update(now);
                 showings.go_on();
@@ -350,7 +350,7 @@ class SceneRender {
         const std::filesystem::path path = preview_path(output_);
         if (const std::filesystem::path other = std::filesystem::path(path).replace_extension(".json");
             std::filesystem::exists(other)) {
-            log_error("error: no preview was written: {} is that of an image of its own, as {} tells", path.string(),
+            log_error("error: no preview was written: {} belongs to an image of its own, as {} tells", path.string(),
                       other.string());
             return;
         }
@@ -370,7 +370,7 @@ class SceneRender {
         }
     }
 
-    /// Returns options with which strategies get as many samples as the image has, whatever ended it.
+    /// Returns options with which strategies get the samples that every pixel of the image has, whatever ended it.
     [[nodiscard]] RenderOptions options_of_strategies(const RenderState& rendered) const {
         RenderOptions options = options_;
         options.spp = static_cast<int>(rendered.spp_done);

@@ -12,34 +12,34 @@ namespace etendue {
 /// Rays after which a path counts as long.
 inline constexpr int kLongPath = 64;
 
-/// Says how fast the largest share of living paths falls: to the power of 1/2 where a path is a walk, to the first
-/// power where it is a subpath, all of whose vertices are kept and connected.
-enum class LongPaths { Walk, Subpath };
+/// Tells walks from subpaths, all of whose vertices are kept and connected. The share of long paths that Russian
+/// roulette lets go on to ray n falls at least as n^(-1/2) for walks, and at least as 1/n for subpaths.
+enum class PathKind { Walk, Subpath };
 
-/// Returns the largest share of paths of `rays` rays that Russian roulette lets live, however much light is left.
-/// The number n of scatterings after which light leaves a dense body that absorbs nothing has a density that falls as
-/// n^(-3/2) (Feller, "An Introduction to Probability Theory and Its Applications", vol. 1, III.4). Shares of
-/// 1 - 1 / (2n) let the weight of what lives grow as the root of n, so that its variance grows as a logarithm; with one
-/// constant share, the variance has no bound. Subpaths pay for each vertex: with shares of 1 - 1 / n the mean number of
-/// vertices does not grow, and the variance grows as the root of the longest walk. Paths that find no way out are ended
-/// soon after kLongestFair rays.
-[[nodiscard]] inline float most_survival(LongPaths paths, int rays) {
-    constexpr int kLongestFair = 1024 * kLongPath;
+/// Returns the largest probability with which Russian roulette lets a path of `rays` rays go on, whatever its
+/// throughput. The number n of scatterings after which light leaves a dense body that absorbs nothing has a density
+/// that falls as n^(-3/2) (Feller, "An Introduction to Probability Theory and Its Applications", vol. 1, III.4). With
+/// the probability 1 - 1 / (2n), the weight of a walk grows as the root of n, and its variance as the logarithm of n;
+/// with a constant probability, the variance has no bound. Each vertex of a subpath takes time: with 1 - 1 / n, the
+/// mean number of vertices has a bound, and the variance grows as the root of the longest path. From kTrappedPath rays
+/// on, the probability is constant, so that paths that find no way out end.
+[[nodiscard]] inline float most_survival(PathKind kind, int rays) {
+    constexpr int kTrappedPath = 1024 * kLongPath;
     if (rays < kLongPath) return 1.0f;
-    if (rays >= kLongestFair) return 0.95f;
-    return 1.0f - (paths == LongPaths::Walk ? 0.5f : 1.0f) / static_cast<float>(rays);
+    if (rays >= kTrappedPath) return 0.95f;
+    return 1.0f - (kind == PathKind::Walk ? 0.5f : 1.0f) / static_cast<float>(rays);
 }
 
-/// Returns the chance with which Russian roulette lets a path live that may go on with the chance `most`, of whose
-/// light the share `throughput` arrives at the eye. The root spares where all light has come a long way, and little of
-/// it arrives, what a chance in proportion would add to the noise; docs/integrators.md has the figures.
+/// Returns the probability with which Russian roulette lets a path from the eye with this `throughput` go on: at most
+/// `most`, which `most_survival` returns. The root adds less noise than the throughput itself where all light has come
+/// a long way, so that little of it arrives; docs/integrators.md has the figures.
 template <typename T>
 [[nodiscard]] inline T eye_path_survival(const T& throughput, float most) {
     return min(T(most), sqrt(throughput));
 }
 
-/// Returns the chance with which Russian roulette lets a path from a light live that may go on with the chance `most`,
-/// of whose light the share `throughput` is left. The root is worse for these paths on as many scenes as it is better
+/// Returns the probability with which Russian roulette lets a path from a light with this `throughput` go on: at most
+/// `most`, which `most_survival` returns. With the root of the throughput, more scenes have more noise than less
 /// (docs/integrators.md).
 template <typename T>
 [[nodiscard]] inline T light_path_survival(const T& throughput, float most) {
@@ -74,7 +74,7 @@ inline constexpr float kSmallestContribution = 1.0f / 1024.0f;
 /// contributes `contribution`. Small ones live on as rarely as they are small, with one and the same contribution:
 /// trees stay small, and what they show on average is what they would show in full.
 [[nodiscard]] inline float branch_survival(float contribution, int rays) {
-    return std::min(most_survival(LongPaths::Walk, rays), contribution / kSmallestContribution);
+    return std::min(most_survival(PathKind::Walk, rays), contribution / kSmallestContribution);
 }
 
 }  // namespace etendue

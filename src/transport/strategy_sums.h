@@ -70,7 +70,7 @@ struct LightPointPdfs {
 }
 
 /// Returns the sums for the emission along `wo` of a lamp that `eye` has met at `point`, with the densities `arrived`;
-/// `time`, in [0, 1], is that of its rays.
+/// `time`, in [0, 1], is the time of the path.
 [[nodiscard]] inline StrategySums sums_of_met_lamp(const MisContext& mis, const SubpathProgress& eye,
                                                    const SurfacePoint& point, const Vec3f& wo, float time,
                                                    const SubpathDensities& arrived) {

@@ -99,7 +99,7 @@ bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Ver
 bool survives_roulette(const SubpathSample& sample, Subpath& subpath, int bounce, int roulette_depth) {
     if (bounce < first_roulette(sample.world(), roulette_depth)) return true;
     const float share = max_component(subpath.throughput) * subpath.roulette_scale;
-    const float most = most_survival(LongPaths::Subpath, bounce);
+    const float most = most_survival(PathKind::Subpath, bounce);
     const float survival =
         subpath.end == SubpathEnd::AtEye ? eye_path_survival(share, most) : light_path_survival(share, most);
     subpath.throughput *= 1.0f / survival;

@@ -117,7 +117,7 @@ void leave(const World& world, EyePath& path, const Vertex& vertex, const BsdfSa
 bool survives_roulette(const World& world, EyePath& path, float u, int roulette_depth) {
     if (path.rays < first_roulette(world, roulette_depth)) return true;
     const float survival = eye_path_survival(max_component(path.throughput) * path.roulette_scale,
-                                             most_survival(LongPaths::Walk, path.rays));
+                                             most_survival(PathKind::Walk, path.rays));
     path.throughput *= 1.0f / survival;
     return u < survival;
 }

@@ -78,7 +78,7 @@ void occluded_batch(const World& world, const TileJob& job, RayKind kind, const 
 
 /// Returns the hit that the camera sees along `ray`, which has passed only clear surfaces, if any, and has met `hit`:
 /// the nearest that is not hidden from the camera, or none if it lies beyond the camera's clipping distance. If another
-/// ray is traced for that, it counts for the sample in `slot` of `light`.
+/// ray is traced to find the hit, this ray counts for the sample in `slot` of `light`.
 [[nodiscard]] inline Hit hit_seen_by_camera(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
                                             std::uint32_t slot, SampleLight& light, RenderCounters& counters) {
     Hit shown = hit;

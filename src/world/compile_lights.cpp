@@ -25,16 +25,19 @@ std::vector<std::shared_ptr<const IesProfile>> compile_profiles(const SceneDesc&
     return profiles;
 }
 
-/// Returns the steps by which a light without a surface moves, as far as that changes its light; empty if it stands
-/// still. None if it moves and cannot: suns have no place and no direction but one, and others have to be rigid.
+/// Returns the steps of the motion of a light without a surface, as far as they change its light; empty if it stands
+/// still. Returns none if the light cannot follow its motion: a sun has a single direction, and other lights must move
+/// rigidly.
 std::optional<TransformMotion> motion_of_punctual(const LightDesc& desc) {
     TransformMotion motion = desc.motion;
     if (desc.type == LightType::Directional) {
         const auto axis = [](const Mat4f& m) { return Vec3f(m[2][0], m[2][1], m[2][2]); };
-        const bool turns = std::ranges::any_of(motion, [&](const Mat4f& m) { return axis(m) != axis(motion.front()); });
+        constexpr float kLeastTurn = 1e-4f;  // radians
+        const bool turns = std::ranges::any_of(
+            motion, [&](const Mat4f& m) { return length(axis(m) - axis(motion.front())) > kLeastTurn; });
         return turns ? std::nullopt : std::optional<TransformMotion>(std::in_place);
     }
-    // A point looks alike from everywhere.
+    // A point emits alike in all directions, so that only its place counts.
     if (desc.type == LightType::Point && !desc.profile)
         for (Mat4f& step : motion)
             for (int r = 0; r < 3; ++r)
@@ -198,20 +201,20 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
                     std::size_t most_triangles) {
     const auto profiles = compile_profiles(scene);
     const float scale = scene.settings.light_units == LightUnits::Radiometric ? 1.0f / kLumensPerWatt : 1.0f;
-    std::size_t still = 0;
+    std::size_t without_motion = 0;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& desc = scene.lights[i];
         if (!(desc.intensity > 0.0f) || !(max_component(desc.color) > 0.0f)) continue;
         const std::optional<TransformMotion> motion = motion_of_punctual(desc);
-        if (!motion) ++still;
+        if (!motion) ++without_motion;
         const bool moves = motion && !motion->empty();
         data.lights.push_back(
             compile_punctual(desc, moves ? frame_of(*motion) : desc.to_world, profiles, scale, data.from_rec709));
         if (moves) set_motion_of_last_light(*rigid_motion(*motion), data);
         data.emitter_of_light.push_back({.lamp = static_cast<std::uint32_t>(i)});
     }
-    if (still > 0)
-        problems.note({}, std::to_string(still) +
+    if (without_motion > 0)
+        problems.note({}, std::to_string(without_motion) +
                               " suns that turn, or spots that turn fast, while the shutter is open keep the place and "
                               "the direction that they have in the middle of that time");
     compile_mesh_lights(most_triangles, data, problems);

@@ -31,7 +31,7 @@ struct EmittedRay {
     Vec3f point{0.0f};           ///< where it leaves the light; for one at infinity, any point of the ray
     Vec3f direction{0.0f};       ///< unit, away from the light
     float cos_light = 1.0f;      ///< between the direction and the normal of the light's front
-    float time = 0.0f;           ///< when it leaves, from 0 at the shutter's opening to 1 at its closing
+    float time = 0.0f;           ///< when the ray leaves, from 0 at the shutter's opening to 1 at its closing
 };
 
 /// Holds the emission of a point of a lamp in one direction.
@@ -47,7 +47,7 @@ class LightEmitter {
     LightEmitter(const WorldData& data, const Materials& materials, const Media& media);
 
     /// Samples a ray that leaves a light, chosen with `u_light` in [0, 1)²; the ray has the given time. If `aims`, a
-    /// share of rays goes to mirrors and smooth glass (light/light_aim.h), as seen from where the light is in the
+    /// share of rays is aimed at mirrors and smooth glass (light/light_aim.h), as they lie around the light in the
     /// middle of the shutter.
     [[nodiscard]] Emission sample(Vec2f u_light, EmissionNumbers u, float time, bool aims) const;
     /// Evaluates the light that leaves the starting point of `emission` along `direction`, towards the camera; black

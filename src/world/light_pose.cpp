@@ -25,7 +25,7 @@ bool is_rigid(const Mat4f& m) {
            dot(cross(x, y), z) > 0.0f;
 }
 
-/// Returns the angle by which `m`, rigid, rotates, radians.
+/// Returns the angle, in radians, by which the rigid transform `m` rotates.
 double rotation_angle(const Mat4f& m) {
     const auto off = [&m](int i, int j) { return static_cast<double>(m[i][j]) - static_cast<double>(m[j][i]); };
     const double trace = static_cast<double>(m[0][0]) + static_cast<double>(m[1][1]) + static_cast<double>(m[2][2]);

@@ -1,8 +1,8 @@
-// Poses of moving lights at a time of the shutter.
+// Tells where moving lights are at a time of the shutter.
 //
-// `WorldData::lights` knows no time: it stores a light that moves where `frame_of` says. This space is the light's
-// frame. A query at a time takes points and directions to this frame, and its results back to the world. The two spaces
-// differ by a rotation and a translation, which change no density.
+// `WorldData::lights` knows no time: it stores a moving light as `frame_of` places it. The space with the light in this
+// place is the light's frame. A query at a time takes points and directions to the light's frame, and its results back
+// to the world. The two spaces differ by a rotation and a translation, which change no density.
 #pragma once
 
 #include "core/vec.h"
@@ -29,9 +29,10 @@ class LightPose {
     [[nodiscard]] Vec3f direction_in_frame(const Vec3f& direction) const {
         return normalize(transform_vector(to_frame_, direction));
     }
-    /// Transforms a sample of light that arrives at a point from the light's frame to the world.
+    /// Transforms `sample`, light that arrives at a point, from the light's frame to the world.
     void to_world(LightSample& sample) const;
-    /// Transforms `sample`, the origin and direction of a ray that leaves the light, from the frame to the world.
+    /// Transforms `sample`, the origin and direction of a ray that leaves the light, from the light's frame to the
+    /// world.
     void to_world(EmissionSample& sample) const;
 
   private:
@@ -45,21 +46,21 @@ class LightPose {
     return motion != nullptr ? std::optional<LightPose>(std::in_place, *motion, time) : std::nullopt;
 }
 
-/// Returns `point` of the world in the frame of a light with this pose, which has none if it stands still.
+/// Returns `point` of the world in the frame of a light with this pose; `point` itself if the light has no pose.
 [[nodiscard]] inline Vec3f in_frame(const std::optional<LightPose>& pose, const Vec3f& point) {
     return pose ? pose->point_in_frame(point) : point;
 }
-/// Returns the unit `direction` of the world in the frame of a light with this pose, which has none if it stands still.
+/// Returns the unit `direction` of the world in the frame of a light with this pose; itself if the light has no pose.
 [[nodiscard]] inline Vec3f direction_in_frame(const std::optional<LightPose>& pose, const Vec3f& direction) {
     return pose ? pose->direction_in_frame(direction) : direction;
 }
 
-/// Returns the frame of a light that moves by `motion`, of at least two steps: its place in the middle of the shutter,
-/// turned as at a step near it. In the middle between two steps, linear interpolation has shrunk a rotation.
+/// Returns the frame of a light that moves by `motion`, of at least two steps: its position in the middle of the
+/// shutter, with the rotation of a step near that time. Between two steps, linear interpolation shrinks a rotation.
 [[nodiscard]] Mat4f frame_of(const TransformMotion& motion);
 
 /// Returns for each step of `motion`, which has at least two, the transform from `frame_of(motion)` to the place at
-/// that step. None unless all of these, and those between them, are rotations and translations, within 0.2%.
+/// that step. Returns none unless all these transforms, and those between the steps, are rigid within 0.2%.
 [[nodiscard]] std::optional<TransformMotion> rigid_motion(const TransformMotion& motion);
 
 /// Returns bounds of the places and emission directions that the light of this index has while the shutter is open;

@@ -133,8 +133,9 @@ bool is_divided(const WorldData& data, const Bounds& region) {
 }
 
 /// Returns whether the bodies around the light of this index may change while the shutter is open; `moving` are boxes
-/// around boundaries that move. What is infinitely far away begins outside of all bodies.
+/// around boundaries that move. Light from infinitely far away begins outside of all bodies.
 bool has_changing_bodies(const WorldData& data, std::uint32_t light, const std::vector<Bounds>& moving) {
+    if (moving.empty() && data.motion_of(light) == nullptr) return false;
     const std::optional<LightBounds> bounds = swept_bounds(data, light);
     if (!bounds) return false;
     return std::ranges::any_of(moving, [&](const Bounds& box) { return overlap(box, bounds->box); }) ||

@@ -10,7 +10,8 @@
 
 namespace etendue {
 
-/// Is the middle of the shutter, [0, 1]: the time of the stored places of lights, and of queries that have no time.
+/// Is the middle of the shutter, which opens at 0 and closes at 1. Places of stored lights, and queries that have no
+/// time of their own, are of this time.
 inline constexpr float kMidShutter = 0.5f;
 
 /// Between which two of some equally spaced steps a time lies.

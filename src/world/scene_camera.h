@@ -50,7 +50,7 @@ class SceneCamera {
 
     const WorldData& data_;
     const SceneTraits& traits_;
-    std::vector<Bounds> lamp_bounds_;  ///< bounds of the surfaces that are lamps; not asked where anything moves
+    std::vector<Bounds> lamp_bounds_;  ///< bounds of the surfaces that are lamps; not used if anything moves
 };
 
 }  // namespace etendue

@@ -49,8 +49,8 @@ struct WorldData {
     std::vector<Light> lights;
     std::vector<Emitter> emitter_of_light;     ///< emitter of each light
     std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled
-    /// Holds for each light its motion, relative to its place in `lights` in the middle of the shutter
-    /// (world/light_pose.h); empty for a light that stands still. The list is empty if no light moves.
+    /// Holds for each light its motion from the frame in which `lights` has it (world/light_pose.h); empty for a light
+    /// that stands still. The list is empty if no light moves.
     std::vector<TransformMotion> motion_of_light;
     bool has_unsampled_emitters = false;  ///< some surface that emits is none of `lights`
     std::uint32_t environment = kNone;    ///< index into `lights`

@@ -92,8 +92,8 @@ TEST(Sheen, IsFiniteWhereRoundingTakesTheCosineAboveOne) {
     EXPECT_TRUE(is_finite(value.f_cos));
 }
 
-// What the base gets is what the sheen leaves, also where its albedo begins to be held below one: at 87 degrees if it
-// is smooth.
+// The base gets the light that the sheen does not reflect, also where the sheen's albedo begins to be held below one:
+// at 87 degrees if the sheen is smooth.
 TEST(Sheen, PassesWhatItDoesNotReflect) {
     for (const float alpha : {0.01f, 0.04f, 0.3f})
         for (float degrees = 84.0f; degrees < 89.6f; degrees += 0.125f) {

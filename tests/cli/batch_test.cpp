@@ -866,8 +866,7 @@ TEST_F(Batch, ACheckpointBesideAFinishedImageIsRemoved) {
     expect_tidy();
 }
 
-/// Made up: that another machine's batch says so while this one waits for its lock.
-// Another terminal, the same directory, a typing error.
+// Somebody starts another batch on the same directory, with a mistyped option.
 TEST_F(Batch, AMistakeOfAnotherFailsNothing) {
     add_slow_scene("a", 2.0);
     add_scene("b");
@@ -896,6 +895,7 @@ TEST_F(Batch, ReplacesNoInputsOfScenes) {
     EXPECT_EQ(run({"--only", "sky", "--log", settings}).exit_code, 2) << "of a scene that is left out";
 }
 
+/// Made up: that another machine's batch says so while this one waits for its lock.
 TEST_F(Batch, OneMachinesFailureIsAnothersOnlyIfTheSceneIsInvalid) {
     for (const auto& [code, rendered] : {std::pair{1, true}, std::pair{3, false}}) {
         fs::remove_all(work_ / "out");

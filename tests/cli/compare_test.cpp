@@ -506,7 +506,7 @@ TEST_F(Compare, MeasuresAgainstAFileOrAnotherIntegrator) {
         << "the reference is made by an algorithm under test";
 }
 
-// A file that says nothing of its noise may be as noisy as what is measured against it.
+// A file that says nothing of its noise may be as noisy as the images that are measured against it.
 TEST_F(Compare, RatiosHaveNoIntervalsWhereTheReferenceMayDecideThem) {
     const std::string box = (folder_ / "box").string();
     ASSERT_EQ(run_etendue({"render", box, "--spp", "64", "-o", "box.exr", "--float", "--quiet"}, work_).exit_code, 0);
@@ -518,7 +518,7 @@ TEST_F(Compare, RatiosHaveNoIntervalsWhereTheReferenceMayDecideThem) {
         return !report()["pairs"][0]["intervals"]["relmse-trimmed"][0].is_null();
     };
     EXPECT_TRUE(has_interval("1"));
-    // That of relMSE x time has the scatter of both.
+    // The interval of relMSE x time holds the scatter of errors and of times.
     const auto cost = [&](std::size_t variant) {
         const json of = report()["variants"][variant];
         const auto log_mean = [](const json& values) {
@@ -530,9 +530,9 @@ TEST_F(Compare, RatiosHaveNoIntervalsWhereTheReferenceMayDecideThem) {
     const json interval = report()["pairs"][0]["intervals"]["relmse-trimmed_time"];
     EXPECT_NEAR(interval[0].get<double>() / expected.low, 1.0, 1e-6);
     EXPECT_NEAR(interval[1].get<double>() / expected.high, 1.0, 1e-6);
-    EXPECT_EQ(notes().find("what tells the reference"), std::string::npos) << notes();
+    EXPECT_EQ(notes().find("the difference between the reference"), std::string::npos) << notes();
     EXPECT_FALSE(has_interval("64"));
-    EXPECT_NE(notes().find("what tells the reference from the mean of all seeds"), std::string::npos) << notes();
+    EXPECT_NE(notes().find("the difference between the reference and"), std::string::npos) << notes();
 }
 
 TEST_F(Compare, AReferenceFileIsLookedAtBeforeAnythingIsRendered) {

@@ -264,9 +264,10 @@ TEST_F(Continuation, RendersBetweenCheckpointsHoweverOftenTheyAreAskedFor) {
 TEST_F(Continuation, APreviewReplacesNoImage) {
     ASSERT_EQ(run(render(1, "a.preview.exr")).exit_code, 0);
     const std::string before = read_file(work_ / "a.preview.png");
-    const ProgramResult result = run(render(1000000, "a.exr"), [&](int pid) {
+    // A pause writes a preview before a checkpoint.
+    const ProgramResult result = run(render(1000000, "a.exr", {"--checkpoint-every", "0.0003"}), [&](int pid) {
         kill(pid, SIGUSR1);
-        sleep_ms(1000);
+        for (int i = 0; i < 3000 && !fs::exists(work_ / "a.checkpoint"); ++i) sleep_ms(5);
         kill(pid, SIGTERM);
     });
     EXPECT_NE(result.err.find("no preview was written"), std::string::npos) << result.err;

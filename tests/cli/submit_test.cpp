@@ -1,6 +1,7 @@
 // etendue submit from outside, with programs in the place of Slurm's.
 #include "color/built_in_config.h"
 #include "core/byte_size.h"
+#include "farm/submission.h"
 #include "program/fake_slurm.h"
 #include "program/run_program.h"
 #include "program/small_files.h"
@@ -384,6 +385,27 @@ TEST_F(Submit, AnInterruptStopsItBeforeTheNextScene) {
     EXPECT_EQ(result.err, "interrupted before anything was submitted\n");
     EXPECT_TRUE(slurm_.calls("sbatch").empty());
     EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(Submit, TwoAtOnceDoNotSubmitTwice) {
+    scene("a");
+    const FileDescriptor lock = lock_submissions(out());
+    const ProgramResult result = submit(small_);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("is submitting to"), std::string::npos) << result.err;
+    EXPECT_TRUE(slurm_.calls("sbatch").empty());
+}
+
+TEST_F(Submit, AFinishedImageKeepsItsStatisticsUntilSlurmTakesItsTask) {
+    scene("a");
+    run_all(submitted(small_));
+    const std::string before = read_file(out() / "a.json");
+    std::vector<std::string> by_force = small_;
+    by_force.emplace_back("--force");
+    slurm_.refuse_after(0);
+    EXPECT_EQ(submit(by_force).exit_code, 1);
+    EXPECT_EQ(read_file(out() / "a.json"), before);
+    EXPECT_FALSE(fs::exists(out() / "a.json.replaced"));
 }
 
 TEST_F(Submit, AnInterruptStopsItBeforeTheNextArrayAndTakesHalvesBack) {

@@ -1,6 +1,7 @@
 #include "compare/comparison_measures.h"
 
 #include "compare/comparison_images.h"
+#include "compare/comparison_notes.h"
 
 #include <cmath>
 #include <limits>
@@ -58,36 +59,6 @@ TEST(DropDrowned, LeavesWhatIsAboveTheNoise) {
         << drowned_errors(report);
 }
 
-TEST(UnequalTimes, AreThoseMoreThanATenthApart) {
-    ComparisonReport report;
-    report.seconds = 2.0;
-    report.variants = {{.name = "path"}, {.name = "bdpt"}};
-    report.variants[0].cpu_seconds.values = {2.0, 2.0};
-    report.variants[1].cpu_seconds.values = {2.1, 2.2};
-    report.variants[1].seconds.values = {9.0, 9.0};
-    EXPECT_EQ(unequal_times(report), "");
-    report.variants[1].cpu_seconds.values = {2.2, 2.4};
-    EXPECT_NE(unequal_times(report).find("'bdpt' 2.3 s, 15% more"), std::string::npos) << unequal_times(report);
-    report.seconds.reset();
-    EXPECT_EQ(unequal_times(report), "") << "of equal samples times need not be equal";
-}
-
-TEST(ReferenceNoise, IsNotedWhereItIsMuchOfTheLeastError) {
-    ComparisonReport report;
-    report.reference = {.kind = "integrator", .noise_rel_mse = 0.3};
-    report.variants = {{.name = "path", .errors = {{"relmse", {{1.0, 2.0}}}}},
-                       {.name = "bdpt", .errors = {{"relmse", {{4.0}}}}},
-                       {.name = "light", .errors = {{"relmse", {{kUnknown}}}}}};
-    EXPECT_NE(reference_noise(report).find("a relMSE of 0.3, is 20% of the least"), std::string::npos)
-        << reference_noise(report);
-    report.reference.kind = "pooled";
-    EXPECT_EQ(reference_noise(report), "");
-    report.reference = {.kind = "file", .noise_rel_mse = 0.14};
-    EXPECT_EQ(reference_noise(report), "");
-    report.reference.noise_rel_mse = kUnknown;
-    EXPECT_EQ(reference_noise(report), "");
-}
-
 TEST(FitStrategies, TakesNoLongerThanTheirShare) {
     EXPECT_EQ(fit_strategies(10.0, 1.0, 1.0).spp, 8u);
     EXPECT_EQ(fit_strategies(3.9, 2.0, 0.5).spp, 4u);
@@ -95,20 +66,6 @@ TEST(FitStrategies, TakesNoLongerThanTheirShare) {
     EXPECT_EQ(fit_strategies(1.0, 4.0, 0.5).spp, 1u);
     EXPECT_EQ(fit_strategies(1.0, 4.0, 0.5).scale, 0.5);
     EXPECT_EQ(fit_strategies(1.0, 400.0, 0.5).scale, 0.25) << "of less nothing can be seen";
-}
-
-TEST(OffBudget, AreMeansMoreThanATenthFromTheTimeAskedFor) {
-    ComparisonReport report;
-    report.seconds = 2.0;
-    report.variants = {{.name = "path"}, {.name = "bdpt"}};
-    report.variants[0].cpu_seconds.values = {1.8, 2.0};
-    report.variants[1].cpu_seconds.values = {1.7, 1.8};
-    EXPECT_NE(off_budget(report).find("CPU time asked for: 'bdpt' 1.75 s;"), std::string::npos) << off_budget(report);
-    report.variants[1].cpu_seconds.values = {2.1, 2.1};
-    EXPECT_EQ(off_budget(report), "");
-    report.seconds.reset();
-    report.variants[1].cpu_seconds.values = {9.0};
-    EXPECT_EQ(off_budget(report), "") << "of equal samples there is no such time";
 }
 
 }  // namespace

@@ -50,8 +50,8 @@ TEST_P(Agreement, MakesTheSameImage) {
     }
 }
 
-/// An integrator that renders a crop of a room, and the pixel filter: only a box filter keeps splats within their
-/// pixels.
+/// Is given an integrator that renders a crop of a room, and the pixel filter. Only a box filter keeps splats within
+/// their pixels.
 class CropAgreement : public testing::TestWithParam<std::tuple<const char*, FilterShape>> {};
 
 // All splats of the whole image reach the crop in the one, in the other only what is meant for it: the two differ in

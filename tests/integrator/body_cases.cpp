@@ -279,7 +279,7 @@ std::vector<ClosedFormCase> lossless_cases() {
     add(candle, ball({0.0f, 0.0f, 0.0f}, 0.9f), wax);
     cases.push_back(lossless("wax", candle, 5e-3, rough));
 
-    // Light leaves it after a number of scatterings with a long tail, 10,000 among them.
+    // The number of scatterings after which light leaves a snowball has a long tail: some paths have 10,000.
     MaterialDesc snow;
     snow.override_model = SubsurfaceDesc{.albedo = Rgb(1.0f), .radius = Rgb(0.01f), .ior = 1.0f};
     SceneDesc snowball = empty_in_environment();

@@ -152,15 +152,15 @@ TEST(BlockAgreement, WithoutVarianceOnlyTheToleranceCounts) {
     EXPECT_TRUE(test_agreement(a, b, {.block_tolerance = 2e-3}).agree());
 }
 
-// Light that is found by chance is missing where chance has found none, and looks as if it were known to be.
+// Where chance has found no light, a block is black without variance, as if it were certain that there is none.
 TEST(BlockAgreement, LeavesOutWhatIsBlackByChance) {
-    constexpr AgreementOptions kOptions{.block_size = 4, .mean_tolerance = 1.0, .black_is_known = false};
+    constexpr AgreementOptions kOptions{.block_size = 4, .mean_tolerance = 1.0, .black_is_certain = false};
     const ImageEstimate lit = constant_estimate(8, 8, 1.0f, 0.01f);
     ImageEstimate partly = lit;
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) partly.mean.pixel(x, y)[0] = partly.variance.pixel(x, y)[0] = 0.0f;
     AgreementOptions known = kOptions;
-    known.black_is_known = true;
+    known.black_is_certain = true;
     EXPECT_FALSE(test_agreement(partly, lit, known).agree());
     const BlockAgreement result = test_agreement(partly, lit, kOptions);
     EXPECT_TRUE(result.agree()) << result.str();

@@ -155,7 +155,7 @@ TEST_F(UpToDate, NotWhenAnInputChangedWhileItWasRead) {
         EXPECT_EQ(file.modified, InputFile::kChanged);
 }
 
-// Archives and other clocks give files such times.
+// Archives give files the time 1970, and clocks of other machines give them times of the future.
 TEST_F(UpToDate, WithInputsOfTheYear1970OrOfTomorrow) {
     const fs::file_time_type now = fs::file_time_type::clock::now();
     const auto since_1970 = std::chrono::file_clock::to_sys(now).time_since_epoch();

@@ -255,7 +255,7 @@ TEST(Motion, RaysLeaveLampsWhereTheyAre) {
     }
 }
 
-// In the middle of two steps straight lines have shrunk what turns: no lamp may be made from that.
+// Between two steps, linear interpolation shrinks a lamp that turns: no light may be made of the shrunk lamp.
 TEST(Motion, LampsOfTwoStepsKeepTheirShape) {
     SceneDesc scene = empty_scene();
     add_object(scene, exact(ShapeKind::Cylinder, {0.2f, 0.5f, 0.2f}), add_material(scene, emissive(Rgb(2.0f))));
@@ -269,7 +269,7 @@ TEST(Motion, LampsOfTwoStepsKeepTheirShape) {
     EXPECT_FALSE(world.traits().has_unsampled_emitters);
 }
 
-// Spots shine beyond the cone that they have at any single moment.
+// While a spot turns, it lights directions outside the cone that it has at any single moment.
 TEST(Motion, BoundsOfSpotsThatTurnAreWide) {
     SceneDesc scene = empty_scene();
     LightDesc spot;
@@ -307,7 +307,7 @@ TEST(Motion, SunsThatTurnKeepTheirDirectionWithANote) {
     const World world = compile(scene, "Linear Rec.709 (sRGB)", problems);
     ASSERT_EQ(problems.all().size(), 1u);
     EXPECT_TRUE(problems.all()[0].message.starts_with("2 suns that turn, or spots")) << problems.all()[0].message;
-    // The point moves, however fast it turns.
+    // The point light moves, however fast it turns.
     const Bounds box = world.lights().bounds(1)->box;
     EXPECT_EQ(box.min.x, 0.0f);
     EXPECT_EQ(box.max.x, 1.0f);

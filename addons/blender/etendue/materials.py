@@ -424,9 +424,9 @@ class Reader:
         return result
 
     def strength(self, shader: Seen) -> Document:
-        """Returns the light of a shader that the exporter has read and whose strength is linked. The strength is 1, as in
-        the exporter, unless the link leads to a constant. If an image gives the light, the exporter writes the image, and
-        the strength of a Value node."""
+        """Returns the light of a shader that the exporter has read and whose strength is linked. The strength is 1, as
+        in the exporter, unless the link leads to a constant. If an image gives the light, the exporter has written the
+        image itself, and also the strength if a Value node gives it."""
         light, strength = shader.value(*EMISSION), max(self.number(shader, "Emission Strength", default=1.0), 0.0)
         if light is None:
             source = shader.source("Emission Strength")

@@ -60,7 +60,8 @@ class EtendueSceneSettings(bpy.types.PropertyGroup):
                                                      ("mitchell", "Mitchell", "Sharp, with negative parts")),
                          default="blackman-harris", description="How samples make pixels")
     filter_radius: FloatProperty(name="Radius", default=0.0, min=0.0, max=8.0,
-                                 description="Radius of the pixel filter in pixels; 0 for that filter's own")
+                                 description="Radius of the pixel filter in pixels, at least 0.1; "
+                                             "0 for that filter's own")
     working_space: EnumProperty(name="Working Space", items=(
         ("REC709", "Linear Rec.709", "The space that Cycles computes in"),
         ("ACESCG", "ACEScg", "The space that the program computes in by itself: saturated colours mix otherwise")),

@@ -50,7 +50,7 @@ def shutter(render: Any, position: str) -> tuple[float, float]:
 def film_settings(render: Any, settings: Any) -> Document:
     film: Document = {"filter": settings.filter}
     if settings.filter_radius > 0.0:
-        film["filter_radius"] = settings.filter_radius
+        film["filter_radius"] = max(settings.filter_radius, 0.1)
     if render.pixel_aspect_x != render.pixel_aspect_y:
         film["pixel_aspect"] = render.pixel_aspect_x / render.pixel_aspect_y
     return film

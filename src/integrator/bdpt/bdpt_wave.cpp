@@ -49,27 +49,17 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         stamp(job.profile, Stage::Mis);
         to_light_.collect(bdpt, SubpathEnd::AtEye, eye_);
         stamp(job.profile, Stage::Numbers);
-        const auto resolve_if_full = [&](ShadowRayQueue& connections) {
-            if (connections.is_full()) connections.resolve(world, job, samples_, found_, tile, counters);
-        };
-        const std::function<void()> resolve_full_between = [&] {
-            resolve_if_full(vertex_connections_);
-            resolve_if_full(wide_vertex_connections_);
-        };
         for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlockLanes) {
             const std::size_t end = std::min(begin + kBlockLanes, to_light_.size());
             if (world.traits().has_sampled_lights) connect_to_lights(bdpt, begin, end);
-            resolve_if_full(light_connections_);
-            resolve_if_full(wide_light_connections_);
-            connect_to_vertices(bdpt, begin, end, resolve_full_between);
-            resolve_full_between();
+            resolve_full(bdpt, {&light_connections_, &wide_light_connections_}, tile, counters);
+            connect_to_vertices(bdpt, begin, end, tile, counters);
         }
         to_camera_.collect(bdpt, SubpathEnd::AtLight, light_);
         stamp(job.profile, Stage::Numbers);
         for (std::size_t begin = 0; begin < to_camera_.size(); begin += kBlockLanes) {
             connect_to_camera(bdpt, begin, std::min(begin + kBlockLanes, to_camera_.size()));
-            resolve_if_full(camera_connections_);
-            resolve_if_full(wide_camera_connections_);
+            resolve_full(bdpt, {&camera_connections_, &wide_camera_connections_}, tile, counters);
         }
         if (job.photons != nullptr && bdpt.wants(kMerges)) merge(bdpt);
         for (ShadowRayQueue* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
@@ -79,6 +69,12 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
     lamps_.note_radiance(samples_, found_);
     accumulate(job, samples_, found_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
+}
+
+void BdptWave::resolve_full(const BdptJob& job, std::initializer_list<ShadowRayQueue*> queues, TileBuffer& tile,
+                            RenderCounters& counters) {
+    for (ShadowRayQueue* const connections : queues)
+        if (connections->is_full()) connections->resolve(job.world(), job.job, samples_, found_, tile, counters);
 }
 
 void BdptWave::trace_photons(const World& world, const TileJob& job, const IntegratorSettings& settings,

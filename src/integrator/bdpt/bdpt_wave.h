@@ -16,7 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
@@ -65,7 +65,7 @@ class BdptWave final : public IntegratorScratch {
         Scattering::TwoWayValue at_eye{};
         Scattering::TwoWayValue at_light{};
     };
-    /// Holds a connection of two plain diffuse vertices. Many are computed at once, one in each lane.
+    /// Holds a connection of two plain diffuse vertices. Many such connections are computed at once, one in each lane.
     struct WideBetween {
         const ConnectibleVertex* eye;
         const ConnectibleVertex* light;
@@ -81,11 +81,14 @@ class BdptWave final : public IntegratorScratch {
     void merge(const BdptJob& job);
     /// Connects light vertices [first, last) to points on the lens that are sampled for them: t = 1.
     void connect_to_camera(const BdptJob& job, std::size_t first, std::size_t last);
-    /// Connects eye vertices [first, last) to light vertices: s > 1, t > 1.
-    /// `resolve_full` resolves the queues of these connections that are full.
-    void connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last,
-                             const std::function<void()>& resolve_full);
-    /// Weighs and queues what is in `between_`.
+    /// Connects eye vertices [first, last) to light vertices: s > 1, t > 1. Adds what connections bring, as soon as
+    /// there are enough of them to be traced together, to `found_` and `tile`.
+    void connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last, TileBuffer& tile,
+                             RenderCounters& counters);
+    /// Empties each of `queues` that is full, by tracing its rays.
+    void resolve_full(const BdptJob& job, std::initializer_list<ShadowRayQueue*> queues, TileBuffer& tile,
+                      RenderCounters& counters);
+    /// Weighs and queues the connections in `between_`, and clears it.
     void weigh_between(const BdptJob& job);
     /// Draws `count` vertices from the cache for `eye`, in place of all that the cache has of an average light subpath.
     void find_cached(const BdptJob& job, const ConnectibleVertex& eye, int count);
@@ -127,7 +130,7 @@ class BdptWave final : public IntegratorScratch {
     // Of the block at hand.
     std::vector<ToLight> to_lights_;
     std::vector<ToCamera> to_cameras_, wide_to_cameras_;
-    static constexpr std::size_t kMostBetween = 4096;
+    static constexpr std::size_t kMostBetween = 4096;  ///< size at which `between_` is weighed and cleared
     std::vector<Between> between_;
     std::vector<LightReceiver> receivers_;
     std::vector<Vec2f> choosing_;  ///< numbers for the choice of a light

@@ -212,17 +212,17 @@ void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const 
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
 }
 
-void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last,
-                                   const std::function<void()>& resolve_full) {
+void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last, TileBuffer& tile,
+                                   RenderCounters& counters) {
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& eye = to_light_[v];
         const bool has_cache = job.is_shared(eye);
         const DiffuseEnd& eye_end = eye_.vertices().diffuse_end(eye);
         for (const LightVertices::Candidate& own : light_vertices_.own(eye.slot)) {
-            // In dense bodies a subpath may have thousands of vertices.
+            // A subpath in a dense body may have thousands of vertices: all pairs would take too much memory.
             if (between_.size() >= kMostBetween) {
                 weigh_between(job);
-                resolve_full();
+                resolve_full(job, {&vertex_connections_, &wide_vertex_connections_}, tile, counters);
             }
             if (!(has_cache && own.is_shared)) find(job, eye, eye_end, own.vertex, 1.0f);
         }
@@ -230,6 +230,7 @@ void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::s
     }
     weigh_wide_between(job);
     weigh_between(job);
+    resolve_full(job, {&vertex_connections_, &wide_vertex_connections_}, tile, counters);
 }
 
 void BdptWave::weigh_between(const BdptJob& job) {

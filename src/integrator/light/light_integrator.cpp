@@ -22,7 +22,7 @@ std::vector<std::string> LightIntegrator::unreachable_light(const World& world) 
     if (world.traits().has_unsampled_emitters)
         sentences.emplace_back(
             "surfaces that glow and are not sampled (a note says why) start no paths from the light: neither they nor "
-            "what they light is seen; 'path' finds it");
+            "what they light is seen; 'path' finds this light");
     return sentences;
 }
 

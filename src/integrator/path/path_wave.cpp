@@ -149,14 +149,14 @@ void PathWave::shade_block(const PathContext& context, std::size_t first, std::s
 void PathWave::keep_survivors(const PathContext& context, std::size_t& kept) {
     const World& world = context.world;
     const bool is_spared = context.rays < first_roulette(world, context.settings.lengths.roulette_depth);
+    const float most = most_survival(PathKind::Walk, context.rays);
     BlockSurvivors survivors(block_.first, kept);
     for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
         const std::size_t i = block_.first + l;
         const BasicRgb<Wide> throughput = paths_.throughput.load(i);
-        const Wide survival = is_spared
-                                  ? Wide(1.0f)
-                                  : eye_path_survival(max_component<Wide>(throughput) * paths_.roulette_scale.load(i),
-                                                      most_survival(LongPaths::Walk, context.rays));
+        const Wide survival =
+            is_spared ? Wide(1.0f)
+                      : eye_path_survival(max_component<Wide>(throughput) * paths_.roulette_scale.load(i), most);
         paths_.throughput.store(i, throughput * (Wide(1.0f) / survival));
         const WideMask goes_on = block_.lanes.goes_on.load(l) != Wide(0.0f);
         const WideMask survives = block_.choices.load(l).y < survival;

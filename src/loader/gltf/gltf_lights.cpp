@@ -65,7 +65,7 @@ void LightReader::place_punctual(const tinygltf::Node& node, std::size_t index, 
     if (warned_.insert(index).second)
         problems_.warning(
             light.location,
-            is_closed ? "the spot's cones are closed, so that it shines on nothing: it is left out"
+            is_closed ? "the spot's cones have the angle 0, so that it lights nothing: it is left out"
                       : fmt::format("the spot's inner cone of {:.4g} should be narrower than the outer one of {:.4g}: "
                                     "the light ends at a hard edge",
                                     light.inner_cone_angle, light.outer_cone_angle));

@@ -150,7 +150,7 @@ class Placer {
         return poses.empty() ? poses : thin_out_poses(poses);
     }
 
-    /// Gives the lights of a node its motion.
+    /// Gives `lights`, those of one node, the motion of the node.
     void move_lights(std::span<LightDesc> lights, const Mat4f& to_world, std::span<const Mat4d> motion,
                      const SourceLocation& where) {
         const std::vector<Mat4f> poses = rigid_poses(to_world, motion);

@@ -16,8 +16,8 @@ namespace etendue {
 /// must have been read. Errors if the nodes are no forest (a cycle, or a node with two parents) or a transform is not
 /// affine; nodes with a singular transform are left out with a warning.
 /// `deformations` are those of the meshes. The nodes are where `animation` has them at the moment that `settings` show,
-/// or in their own pose without one; skinned and morphed meshes are appended to the scene's as they are then. While the
-/// shutter is open, what moves gets its motion.
+/// or in their own pose without one; skinned and morphed meshes are appended to the scene's as they are then. All that
+/// moves while the shutter is open gets its motion.
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
                 const AnimationSampler* animation, const RenderSettings& settings, SceneDesc& scene,
                 ProblemList& problems);

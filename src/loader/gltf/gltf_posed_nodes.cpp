@@ -55,17 +55,18 @@ Corners moved_corners(const Mat4d& m, const Bounds& bounds) {
     return corners;
 }
 
-/// Limits how much straight lines between steps may shorten or turn the axes of what turns, as a share of their length.
-constexpr double kMostShrunk = 1e-3;
+/// Limits the error of a node's axes that linear interpolation between steps makes, as a share of their length.
+constexpr double kAxisTolerance = 1e-3;
 
-/// Returns how far the axes of `a` are from those of `b`, the largest as a share of its length.
-double axes_apart(const Mat4d& a, const Mat4d& b) {
+Vec3d axis_of(const Mat4d& m, int axis) {
+    return {m[axis][0], m[axis][1], m[axis][2]};
+}
+
+/// Returns the largest distance between an axis of `a` and the same axis of `b`, as a share of its length in `lengths`.
+double axis_error(const Mat4d& a, const Mat4d& b, const Vec3d& lengths) {
     double largest = 0.0;
-    for (int r = 0; r < 3; ++r) {
-        const Vec3d axis(b[r][0], b[r][1], b[r][2]);
-        const Vec3d off = Vec3d(a[r][0], a[r][1], a[r][2]) - axis;
-        if (const double length = axis.length(); length > 0.0) largest = std::max(largest, off.length() / length);
-    }
+    for (int i = 0; i < 3; ++i)
+        if (lengths[i] > 0.0) largest = std::max(largest, (axis_of(a, i) - axis_of(b, i)).length() / lengths[i]);
     return largest;
 }
 
@@ -74,14 +75,17 @@ std::size_t stride_for_box(std::span<const Mat4d> steps, const Bounds& bounds) {
     std::vector<Corners> corners;
     corners.reserve(steps.size());
     Bounds swept;
+    Vec3d longest(0.0);  // of each axis over all steps, since an axis may grow from nothing
     for (const Mat4d& step : steps) {
+        for (int i = 0; i < 3; ++i) longest[i] = std::max(longest[i], axis_of(step, i).length());
         corners.push_back(moved_corners(step, bounds));
         for (const Vec3d& corner : corners.back()) swept.extend(Vec3f(corner));
     }
     const double tolerance = kMotionTolerance * static_cast<double>(length(swept.size()));
     const auto distance = [&](std::size_t a, std::size_t b, double t, std::size_t c) {
-        // Lamps are sampled as rigid bodies (world/light_pose.h), which straight lines shrink while they turn.
-        double largest = tolerance / kMostShrunk * axes_apart(steps[a] * (1.0 - t) + steps[b] * t, steps[c]);
+        // Lamps are sampled as rigid bodies (world/light_pose.h), but linear interpolation shrinks bodies that turn.
+        double largest =
+            tolerance / kAxisTolerance * axis_error(steps[a] * (1.0 - t) + steps[b] * t, steps[c], longest);
         for (std::size_t i = 0; i < corners[a].size(); ++i) {
             const Vec3d straight = corners[a][i] * (1.0 - t) + corners[b][i] * t;
             largest = std::max(largest, (straight - corners[c][i]).length());

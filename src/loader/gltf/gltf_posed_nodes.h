@@ -102,12 +102,14 @@ template <typename Distance>
     return stride;
 }
 
-/// The fewest of `steps` (2^n + 1, equally spaced) that keep every point of `bounds` within a thousandth of what it
-/// sweeps of where it was, and every axis within a thousandth of its length.
+/// Returns the fewest of `steps` (2^n + 1, equally spaced) that suffice for linear interpolation. It moves no point of
+/// the box `bounds` by more than a thousandth of the diagonal of all that the box sweeps, and no axis by more than a
+/// thousandth of its length.
 [[nodiscard]] std::vector<Mat4f> thin_out(std::span<const Mat4d> steps, const Bounds& bounds);
 
-/// The fewest of the poses of a camera or a lamp, rigid transforms, that keep its axes within a ten-thousandth of a
-/// radian, and its place within a ten-thousandth of its way, of where they were: what it sees may be far away.
+/// Returns the fewest of `steps`, the rigid poses of a camera or a lamp, that suffice for interpolation. It turns no
+/// axis by more than a ten-thousandth of a radian, since what a camera sees or a lamp lights may be far away, and moves
+/// the place by no more than a ten-thousandth of its way.
 [[nodiscard]] std::vector<Mat4f> thin_out_poses(std::span<const Mat4f> steps);
 
 }  // namespace etendue

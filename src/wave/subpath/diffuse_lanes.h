@@ -21,7 +21,7 @@ struct DiffuseLanes : SurfaceLanes {
     Vec3Columns facing_normal;
     Column reverse_pdf;  ///< density of turning back, 1/sr, wherever the walk comes from
 
-    // These become `origin`, `weight` and `fewer` of DiffuseEnd.
+    // The following columns become `origin`, `weight` and `fewer` of DiffuseEnd.
     Vec3Columns end_origin;
     RgbColumns end_weight;
     Column end_fewer;  ///< set by the caller

@@ -1,4 +1,4 @@
-// Connects the points at which light subpaths begin to the camera: lamps in view, found from their side.
+// Connects the starting points of light subpaths to the camera, which shows lamps in view: the strategy (1, 1).
 #pragma once
 
 #include "transport/bodies.h"

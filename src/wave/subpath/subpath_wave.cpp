@@ -326,7 +326,7 @@ void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::
         const SubpathState& state = states_[first + k];
         survival.set(k, max_component(state.throughput) * state.roulette_scale);
     }
-    const float most = most_survival(LongPaths::Subpath, bounce_);
+    const float most = most_survival(PathKind::Subpath, bounce_);
     const auto chance = [&](const Wide& share) {
         if (bounce_ < roulette_depth_) return Wide(1.0f);
         return end_ == SubpathEnd::AtEye ? eye_path_survival(share, most) : light_path_survival(share, most);

@@ -66,10 +66,10 @@ TEST(PathIntegrator, RouletteDoesNotChangeTheMean) {
 }
 
 TEST(PathIntegrator, RouletteTakesTheRootOfTheThroughput) {
-    EXPECT_EQ(eye_path_survival(0.0f, most_survival(LongPaths::Walk, 3)), 0.0f);
-    EXPECT_EQ(eye_path_survival(0.25f, most_survival(LongPaths::Walk, 3)), 0.5f);
-    EXPECT_EQ(eye_path_survival(2.0f, most_survival(LongPaths::Walk, kLongPath - 1)), 1.0f);
-    EXPECT_EQ(eye_path_survival(2.0f, most_survival(LongPaths::Walk, kLongPath)), 1.0f - 0.5f / kLongPath);
+    EXPECT_EQ(eye_path_survival(0.0f, most_survival(PathKind::Walk, 3)), 0.0f);
+    EXPECT_EQ(eye_path_survival(0.25f, most_survival(PathKind::Walk, 3)), 0.5f);
+    EXPECT_EQ(eye_path_survival(2.0f, most_survival(PathKind::Walk, kLongPath - 1)), 1.0f);
+    EXPECT_EQ(eye_path_survival(2.0f, most_survival(PathKind::Walk, kLongPath)), 1.0f - 0.5f / kLongPath);
 }
 
 TEST(PathIntegrator, RouletteKeepsLightInGlass) {
@@ -80,7 +80,7 @@ TEST(PathIntegrator, RouletteKeepsLightInGlass) {
     glass.override_model = DielectricDesc{1.8f, 0.0f};
     add(scene, sphere({0, 0, -3}, 1.2f, 3, Facing::Outwards), glass);
     const World world = compile(std::move(scene));
-    // What is caught between facets ends after 64 edges or many more, by chance; before, roulette has nothing to end.
+    // Paths that are caught between facets end by chance, after 64 edges or many more. Roulette ends none before.
     std::vector<double> errors;
     for (const int roulette_depth : {1, 64}) {
         const TileResult result = render_tile(world, path_of(100000, 1, true, roulette_depth), 1024);

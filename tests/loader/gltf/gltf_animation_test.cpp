@@ -296,6 +296,7 @@ TEST(Morph, DisplacementsThatAreNotFiniteAreNone) {
     EXPECT_FALSE(loaded.problems.has_errors());
     const Handle<MeshDesc> mesh = loaded.scene.instances.at(0).mesh;
     const PrimitiveDesc& moved = loaded.scene.meshes.at(static_cast<std::size_t>(mesh.index)).primitives.at(0);
+    EXPECT_EQ(moved.positions.at(1), Vec3f(1, 0, 0));
     EXPECT_EQ(moved.positions.at(2).z, 2.0f);
 }
 

@@ -152,8 +152,8 @@ TEST(GltfMotion, WheelsStayRound) {
     EXPECT_LT(builder.load(shutter(0.0, 0.0, 0.02)).scene.instances.at(0).motion.size(), 6u) << "as many as it takes";
 }
 
-// A small thing that goes 1 m while it turns by 8 degrees: two steps would do for its sweep, but would shrink it by
-// more than a lamp that is sampled may be.
+// A small triangle goes 1 m while it turns by 8 degrees. Two steps would suffice for its long way, but would shrink the
+// triangle by more than a lamp that is sampled may shrink.
 TEST(GltfMotion, WhatTurnsSlowlyOnALongWayStaysRigid) {
     GltfBuilder builder;
     builder.add_triangle();

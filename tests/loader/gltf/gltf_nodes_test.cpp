@@ -421,8 +421,8 @@ TEST(Lights, ConesWithoutARampHaveAHardEdge) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "hard edge", "/lights/0"));
     ASSERT_EQ(loaded.scene.lights.size(), 1u);
     EXPECT_EQ(loaded.scene.lights[0].inner_cone_angle, 0.2f);
-    // Only what is equal in the file breaks glTF's rule, and not what is in single precision; the last is what Blender
-    // writes where the outer cone is the default.
+    // Cones that are equal in the file break glTF's rule; cones that are equal in single precision only do not. Blender
+    // writes the last pair if the outer cone is the default.
     for (const auto& [inner, outer] : {std::pair(0.2, 0.2), std::pair(0.08968102931976317, 0.08968102931976318),
                                        std::pair(0.7853981852531433, 0.7853981633974483)}) {
         const LoadedScene equal = with_spot(inner, outer);
