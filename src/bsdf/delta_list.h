@@ -27,6 +27,7 @@ class DeltaList {
         if (count_ < kCapacity) deltas_[count_++] = delta;
     }
 
+    [[nodiscard]] bool is_empty() const { return count_ == 0; }
     [[nodiscard]] auto begin() const { return deltas_.begin(); }
     [[nodiscard]] auto end() const { return deltas_.begin() + static_cast<std::ptrdiff_t>(count_); }
 

@@ -6,6 +6,7 @@
 #include "integrator/scalar_integrators.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace etendue {
 
@@ -27,6 +28,11 @@ std::unique_ptr<const Integrator> make_direct(IntegratorSettings settings) {
 std::unique_ptr<const Integrator> make_naive(IntegratorSettings settings) {
     settings.light_samples = 0;
     return std::make_unique<PathIntegrator>(settings);
+}
+
+std::unique_ptr<const Integrator> make_hemisphere(IntegratorSettings settings) {
+    settings.even_directions = true;
+    return make_naive(std::move(settings));
 }
 
 std::unique_ptr<const Integrator> make_bdpt(IntegratorSettings settings) {
@@ -57,6 +63,9 @@ constexpr IntegratorEntry kRegistry[] = {
     {.name = "naive",
      .summary = "eye paths that find lights by chance",
      .make = [](const IntegratorSettings& settings) { return make_naive(settings); }},
+    {.name = "hemisphere",
+     .summary = "naive, with directions that ignore what surfaces reflect, for teaching",
+     .make = [](const IntegratorSettings& settings) { return make_hemisphere(settings); }},
     {.name = "light",
      .summary = "paths from the lights, connected to the camera",
      .make = make<LightIntegrator>,

@@ -73,6 +73,10 @@ template <typename T = float>
     return {r * phi.cos, r * phi.sin, z};
 }
 
+[[nodiscard]] inline float hemisphere_pdf_solid_angle() {
+    return kInvPi / 2.0f;
+}
+
 /// Maps the unit square uniformly to the cap of the unit sphere around +z that has this `height` > 0: one minus the
 /// cosine of the cone's half angle. In single precision, the cosine itself cannot tell small angles apart.
 [[nodiscard]] inline Vec3f square_to_spherical_cap(Vec2f u, float height) {

@@ -66,6 +66,9 @@ struct IntegratorSettings {
     /// Counts the lights, 1 to 64, that `path` and `direct` sample at each first vertex behind the eye and its mirrors.
     /// With 0, which no user asks for, paths find lights by chance only.
     std::uint32_t light_samples = 1;
+    /// Says whether paths go on from surfaces that only reflect, and have no deltas, in all directions alike, whatever
+    /// the surface reflects there: what `hemisphere` is for.
+    bool even_directions = false;
     /// Says how bidirectional path tracing weighs its strategies against each other.
     Heuristic heuristic = Heuristic::Balance;
     /// Names the one strategy of bidirectional path tracing that makes the image, or kMerges; none for all strategies.

@@ -37,7 +37,7 @@ Rgb path_radiance(const World& world, const EyeSample& sample, const IntegratorS
         const std::uint32_t light_samples = light_samples_at(world, path, vertex, settings);
         if (light_samples > 0) radiance += sampled_light(world, path, vertex, sample.numbers, u, light_samples);
 
-        if (!scatter(world, path, vertex, u, light_samples, settings.lengths.max_depth)) break;
+        if (!scatter(world, path, vertex, u, light_samples, settings)) break;
         if (!survives_roulette(world, path, u.roulette, settings.lengths.roulette_depth)) break;
     }
     return radiance;

@@ -30,6 +30,10 @@ float Vertex::cosine(const Vec3f& w) const {
     return kind == Kind::Surface ? abs_dot(w, surface.geometric_normal) : 1.0f;
 }
 
+BsdfSample Vertex::sample_evenly(float u_lobe, Vec2f u) const {
+    return kind == Kind::Surface ? scattering().sample_evenly(u_lobe, u) : sample(u_lobe, u);
+}
+
 BsdfSample Vertex::sample(float u_lobe, Vec2f u, TransportMode mode) const {
     if (kind == Kind::Surface) return scattering().sample(u_lobe, u, mode);
     BsdfSample sample;

@@ -64,6 +64,8 @@ struct Vertex {
     [[nodiscard]] float cosine(const Vec3f& w) const;
     /// Samples a direction with `u_lobe` in [0, 1) and `u` in [0, 1)².
     [[nodiscard]] BsdfSample sample(float u_lobe, Vec2f u, TransportMode mode = TransportMode::Radiance) const;
+    /// Samples a direction for radiance: on surfaces, as `Scattering::sample_evenly` does.
+    [[nodiscard]] BsdfSample sample_evenly(float u_lobe, Vec2f u) const;
     /// Returns where a ray along `wi` starts, clear of the surface.
     [[nodiscard]] Vec3f origin_towards(const Vec3f& wi) const;
     /// Returns the bodies that a ray along `wi` starts in.

@@ -68,7 +68,7 @@ Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
 }
 
 bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
-             std::uint32_t light_samples, int max_depth) {
+             std::uint32_t light_samples, const IntegratorSettings& settings) {
     if (vertex.kind == Vertex::Kind::Boundary) {
         // Light samples pass none but clear boundaries.
         if (!vertex.surface.material->is_clear) path.last.samples = 0;
@@ -76,7 +76,8 @@ bool scatter(const World& world, EyePath& path, const Vertex& vertex, const Vert
         pass(path, vertex, u.alpha_key);
         return true;
     }
-    const BsdfSample sample = vertex.sample(u.lobe, u.direction);
+    const BsdfSample sample =
+        settings.even_directions ? vertex.sample_evenly(u.lobe, u.direction) : vertex.sample(u.lobe, u.direction);
     if (is_black(sample.weight)) return false;
     const bool is_surface = vertex.kind == Vertex::Kind::Surface;
     if (is_surface && goes_straight_on(*vertex.surface.material, sample)) {
@@ -85,7 +86,7 @@ bool scatter(const World& world, EyePath& path, const Vertex& vertex, const Vert
         pass(path, vertex, u.alpha_key);
         return true;
     }
-    if (is_surface && path.edges >= max_depth) return false;
+    if (is_surface && path.edges >= settings.lengths.max_depth) return false;
     path.throughput *= sample.weight;
     if (is_surface) {
         const Wavelength after = wavelength_after(

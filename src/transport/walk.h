@@ -5,6 +5,7 @@
 #include "core/ray_cone.h"
 #include "core/rgb.h"
 #include "light/light_receiver.h"
+#include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
 #include "transport/vertex.h"
 #include "world/world.h"
@@ -104,10 +105,10 @@ struct VertexNumbers {
 /// times its scattering coefficient where it scatters, over the density.
 [[nodiscard]] Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u);
 
-/// Has the path go on from `vertex`, at which it took `light_samples`; false if it ends there: light is absorbed, or
-/// the path would be longer than `max_depth` edges.
+/// Has the path go on from `vertex`, at which it took `light_samples`, in a direction that follows the `settings`;
+/// false if it ends there: light is absorbed, or the path would be too long.
 [[nodiscard]] bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
-                           std::uint32_t light_samples, int max_depth);
+                           std::uint32_t light_samples, const IntegratorSettings& settings);
 
 /// Sends the path straight on from `vertex`, which is none to the path: a boundary that another body hides, or a clear
 /// surface.

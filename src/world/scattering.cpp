@@ -1,6 +1,7 @@
 #include "world/scattering.h"
 
 #include "sampling/hash.h"
+#include "sampling/warp.h"
 #include "world/coated_scattering.h"
 #include "world/lane_scattering.h"
 
@@ -186,6 +187,17 @@ Scattering::TwoWayValue Scattering::evaluate_both_ways(const Vec3f& wi, Transpor
 BsdfSample Scattering::sample(float u_lobe, Vec2f u, TransportMode mode) const {
     const BsdfSample sample = sample_both_sides(u_lobe, u, mode);
     return has_no_eye_along(sample.wi, mode) ? BsdfSample{} : sample;
+}
+
+BsdfSample Scattering::sample_evenly(float u_lobe, Vec2f u) const {
+    if (!only_reflects(*bsdf_) || !deltas().is_empty()) return sample(u_lobe, u, TransportMode::Radiance);
+    const Vec3f& normal = surface_.geometric_normal;
+    BsdfSample sample;
+    sample.wi =
+        Frame::from_normal(dot(surface_.wo, normal) < 0.0f ? -normal : normal).to_world(square_to_hemisphere(u));
+    sample.pdf_solid_angle = hemisphere_pdf_solid_angle();
+    sample.weight = evaluate(sample.wi, TransportMode::Radiance).f_cos / sample.pdf_solid_angle;
+    return sample;
 }
 
 BsdfSample Scattering::sample_both_sides(float u_lobe, Vec2f u, TransportMode mode) const {

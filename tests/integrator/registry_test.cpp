@@ -18,13 +18,14 @@ TEST(IntegratorRegistry, HoldsWhatTheDocumentationNames) {
         ASSERT_NE(integrator, nullptr);
         EXPECT_NE(integrator->make_scratch(), nullptr);
     }
-    for (const char* name : {"path", "direct", "naive", "light", "bdpt", "vcm", "whitted", "normals", "albedo"})
+    for (const char* name :
+         {"path", "direct", "naive", "hemisphere", "light", "bdpt", "vcm", "whitted", "normals", "albedo"})
         EXPECT_TRUE(names.contains(name)) << name;
 }
 
 TEST(IntegratorRegistry, KnowsWhichShowLight) {
     for (const char* name : {"normals", "albedo"}) EXPECT_FALSE(find_integrator(name)->shows_light) << name;
-    for (const char* name : {"path", "direct", "naive", "light", "bdpt", "vcm", "whitted"})
+    for (const char* name : {"path", "direct", "naive", "hemisphere", "light", "bdpt", "vcm", "whitted"})
         EXPECT_TRUE(find_integrator(name)->shows_light) << name;
 }
 

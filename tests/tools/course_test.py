@@ -71,6 +71,13 @@ class CourseTest(unittest.TestCase):
             (Path(name) / "a.json").write_text('{"rays": {"camera": 3, "total": 7}}', encoding="utf-8")
             self.assertEqual(tool.Figures(Path(name)).value('rays("a.exr") / 2'), 3.5)
 
+    def test_slopes_are_those_of_the_comparison(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "c").mkdir()
+            variants = [{"name": "even", "slopes": {"relmse": {"spp": -1.5}}}, {"name": "random", "slopes": {"relmse": {"spp": -1}}}]
+            (Path(name) / "c/report.json").write_text(json.dumps({"variants": variants}), encoding="utf-8")
+            self.assertEqual(tool.Figures(Path(name)).value('slope("c", "even") - slope("c", "random")'), -0.5)
+
     def test_a_command_that_fails_is_told(self):
         self.assertIn("ended with 3", self.run_step("    etendue render x\n", "#!/bin/sh\nexit 3\n")[0])
 

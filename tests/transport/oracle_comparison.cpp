@@ -64,7 +64,8 @@ Rgb scalar_light(const World& world, const OracleRun& run, const TileJob& job, c
         add(found.on_film);
         return found.radiance;
     }
-    if (run.integrator == "naive") settings.light_samples = 0;
+    if (run.integrator == "naive" || run.integrator == "hemisphere") settings.light_samples = 0;
+    settings.even_directions = run.integrator == "hemisphere";
     if (run.integrator == "direct") settings.lengths.max_depth = std::min(settings.lengths.max_depth, 2);
     return path_radiance(world, sample, settings);
 }

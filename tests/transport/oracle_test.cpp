@@ -52,7 +52,7 @@ std::size_t expect_samples_of_oracle(const World& world, const OracleRun& run, d
 
 /// Compares all algorithms, and what they may be asked for; returns how many photons were compared.
 std::size_t expect_all_samples_of_oracle(const World& world, const OracleRun& run, double most = kMostOfRooms) {
-    for (const char* const integrator : {"path", "direct", "naive", "light", "bdpt"}) {
+    for (const char* const integrator : {"path", "direct", "naive", "hemisphere", "light", "bdpt"}) {
         OracleRun one = run;
         one.integrator = integrator;
         expect_samples_of_oracle(world, one, most);

@@ -51,7 +51,8 @@ void PathPlaces::set_up(const PathContext& context) {
             block_.escaped.add(k);
             continue;
         }
-        const PlainSurface* const plain = block_.paths[k].plain = world.materials().plain_surface(paths_.hits[i]);
+        const PlainSurface* const plain = block_.paths[k].plain =
+            context.settings.even_directions ? nullptr : world.materials().plain_surface(paths_.hits[i]);
         if (plain == nullptr && !set_up_any(context, k)) continue;
         if (paths_.edges(i) < context.settings.lengths.max_depth ||
             (plain == nullptr && block_.singles[k].point.material->is_clear))
@@ -196,7 +197,10 @@ void PathPlaces::make_scattering_singly(const PathContext& context, std::size_t 
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);
     if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); lobe != nullptr && lobe->is_plain() && !crossing)
         path.glossy = lobe;
-    block_.set_wide(k, path.glossy != nullptr || (diffuse != nullptr && !crossing));
+    // Lanes sample lobes.
+    if (context.settings.even_directions) path.glossy = nullptr;
+    block_.set_wide(k,
+                    !context.settings.even_directions && (path.glossy != nullptr || (diffuse != nullptr && !crossing)));
     if (path.is_wide) {
         block_.lanes.geometric_normal.set(k, point.geometric_normal);
         block_.lanes.clearance.set(k, point.clearance);

@@ -30,9 +30,12 @@ void PathScattering::evaluate_by_lanes() {
     glossy_.give(block_.lanes, block_.count, false);
 }
 
-void PathScattering::sample_bsdf(std::size_t k) {
+void PathScattering::sample_bsdf(const PathContext& context, std::size_t k) {
     SingleShading& path = block_.singles[k];
-    path.sample = path.scattering->sample(block_.choices[k].x, block_.bsdf_direction[k], TransportMode::Radiance);
+    const float u_lobe = block_.choices[k].x;
+    const Vec2f u = block_.bsdf_direction[k];
+    path.sample = context.settings.even_directions ? path.scattering->sample_evenly(u_lobe, u)
+                                                   : path.scattering->sample(u_lobe, u, TransportMode::Radiance);
 }
 
 void PathScattering::scatter_by_lanes(const PathContext& context) {

@@ -20,7 +20,7 @@ class PathScattering {
     /// Evaluates the BSDFs of all paths that are wide towards another light sample each.
     void evaluate_by_lanes();
     /// Samples the BSDF of path `k`, which is not wide.
-    void sample_bsdf(std::size_t k);
+    void sample_bsdf(const PathContext& context, std::size_t k);
 
     /// Takes path `k` through the medium that its ray is in; true if it scatters there.
     bool scatter_in_medium(const PathContext& context, std::size_t k);

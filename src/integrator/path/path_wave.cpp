@@ -131,7 +131,7 @@ void PathWave::shade_block(const PathContext& context, std::size_t first, std::s
     stamp(Stage::LightSampling);
     scattering_.evaluate_and_sample_by_lanes();
     for (const std::size_t k : block_.on_surface)
-        if (!block_.paths[k].is_wide) scattering_.sample_bsdf(k);
+        if (!block_.paths[k].is_wide) scattering_.sample_bsdf(context, k);
     queue_light_samples(context, block_.sampling, 0, stamp);
     take_more_light_samples(context, stamp);
     if (!paths_.passed.empty())
