@@ -206,6 +206,15 @@ bool ChildAttempt::show_preview() {
     return true;
 }
 
+void ChildAttempt::stop() {
+    child_->send(SIGSTOP);
+}
+
+void ChildAttempt::go_on_after_stop() {
+    child_->send(SIGCONT);
+    last_sign_ = Clock::now();
+}
+
 Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                      const std::string& title, const std::function<bool()>& keep_alive, const ThreadPool& threads) {
     Attempt attempt{.end = AttemptEnd::Done};

@@ -71,6 +71,10 @@ class ChildAttempt {
     /// Lets it write a preview if it is rendering; returns whether it is.
     bool show_preview();
 
+    /// Stops its process until `go_on_after_stop`.
+    void stop();
+    void go_on_after_stop();
+
     /// Returns the bytes of memory that its process has now.
     [[nodiscard]] std::uint64_t memory_bytes() const { return child_->own_memory_bytes(); }
 

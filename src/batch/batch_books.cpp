@@ -7,6 +7,15 @@
 
 namespace etendue {
 
+std::chrono::steady_clock::duration oldest_reports(std::chrono::steady_clock::duration took, std::size_t units) {
+    using Duration = std::chrono::steady_clock::duration;
+    constexpr int kLeastShare = 20;
+    constexpr Duration kOfEachUnit = std::chrono::milliseconds(10);
+    constexpr Duration kOldest = std::chrono::minutes(1);
+    const Duration newest = std::chrono::seconds(1) + kOfEachUnit * static_cast<int>(units);
+    return std::min(std::max(kLeastShare * took, newest), kOldest);
+}
+
 BatchBooks::BatchBooks(const std::filesystem::path& output) : page_(output), ledger_(output / "ledger.jsonl") {}
 
 void BatchBooks::try_to(const std::function<void()>& write) {
@@ -23,11 +32,7 @@ void BatchBooks::append(const LedgerEvent& event) {
 }
 
 bool BatchBooks::are_reports_due() const {
-    constexpr int kLeastShare = 20;
-    constexpr Clock::duration kOfEachUnit = std::chrono::milliseconds(10);
-    constexpr Clock::duration kOldest = std::chrono::minutes(1);
-    const Clock::duration newest = std::chrono::seconds(1) + kOfEachUnit * static_cast<int>(units_);
-    return Clock::now() - written_ > std::min(std::max(kLeastShare * took_, newest), kOldest);
+    return Clock::now() - written_ > oldest_reports(took_, units_);
 }
 
 void BatchBooks::write_reports(const BatchReport& report) {

@@ -12,6 +12,11 @@
 
 namespace etendue {
 
+/// Returns the age from which report.json and index.html are written anew: a second, and as much more as they have
+/// `units`, and many times what writing them `took`, but no more than a minute.
+[[nodiscard]] std::chrono::steady_clock::duration oldest_reports(std::chrono::steady_clock::duration took,
+                                                                 std::size_t units);
+
 /// Images matter more than books: what cannot be written is an error that is told once, and the batch goes on.
 class BatchBooks {
   public:
@@ -19,8 +24,7 @@ class BatchBooks {
 
     void append(const LedgerEvent& event);
 
-    /// Returns whether report.json and index.html are to be written anew: they are a second old, and as much more as
-    /// they are large, and the time that writing takes is small against that; or they are a minute old.
+    /// Returns whether report.json and index.html are to be written anew, as `oldest_reports` says.
     [[nodiscard]] bool are_reports_due() const;
     /// Writes report.json and index.html.
     void write_reports(const BatchReport& report);

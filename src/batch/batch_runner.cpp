@@ -15,8 +15,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -101,6 +103,7 @@ void BatchRunner::fail_all() {
 
 void BatchRunner::run() {
     record_.begin_batch();
+    first_frames_ = FirstFrames(plan_, options_.overrides);
     std::deque<std::size_t> waiting;
     for (std::size_t i = 0; i < plan_.size(); ++i)
         if (plan_[i].is_stale())
@@ -119,7 +122,11 @@ void BatchRunner::run() {
 void BatchRunner::make_images(std::deque<std::size_t> waiting) {
     std::vector<std::size_t> held;
     Clock::time_point looked_at_held = Clock::now();
+    // They have process groups of their own, which Ctrl-Z in a terminal does not reach.
+    std::optional<StopRequests> stops;
+    if (!options_.in_process) stops.emplace();
     while (true) {
+        if (stops && stops->take()) stop_with_work();
         begin_images(waiting, held);
         if (!work_.empty())
             look_after_work(held);
@@ -152,21 +159,23 @@ void BatchRunner::remove_checkpoints(std::size_t index) {
 }
 
 void BatchRunner::begin_images(std::deque<std::size_t>& waiting, std::vector<std::size_t>& held) {
-    while (work_.size() < jobs_ && !waiting.empty() && !interrupt_requested() && has_room_for(waiting.front())) {
+    while (work_.size() < jobs_ && !interrupt_requested()) {
+        const auto next = std::ranges::find_if(waiting, [&](std::size_t i) { return first_frames_.lets_begin(i); });
+        if (next == waiting.end() || !has_room_for(*next)) break;
         const int threads = threads_for(waiting);
-        const std::size_t index = waiting.front();
-        waiting.pop_front();
-        switch (begin(index, threads)) {
-            case Beginning::UnderWay:
-                break;
-            case Beginning::Over:
-                record_.count_done();
-                record_.write_reports(false);
-                break;
-            case Beginning::Elsewhere:
-                held.push_back(index);
-        }
+        const std::size_t index = *next;
+        waiting.erase(next);
+        const Beginning now = begin(index, threads);
+        if (now == Beginning::UnderWay) continue;
+        leave(index, now, held);
+        if (now == Beginning::Over) record_.write_reports(false);
     }
+}
+
+void BatchRunner::leave(std::size_t index, Beginning how, std::vector<std::size_t>& held) {
+    first_frames_.end(index);
+    if (how == Beginning::Elsewhere) held.push_back(index);
+    if (how == Beginning::Over) record_.count_done();
 }
 
 std::vector<JobShare> BatchRunner::shares() const {
@@ -200,8 +209,10 @@ bool BatchRunner::has_room_for(std::size_t index) {
 int BatchRunner::threads_for(const std::deque<std::size_t>& waiting) const {
     if (jobs_ == 1) return record_.report().threads;
     std::vector<std::uint64_t> needs;
-    for (std::size_t i = 0; i < std::min(waiting.size(), jobs_); ++i)
-        needs.push_back(memory_need(plan_[waiting[i]], options_));
+    for (const std::size_t index : waiting) {
+        if (needs.size() == jobs_) break;
+        if (first_frames_.lets_begin(index)) needs.push_back(memory_need(plan_[index], options_));
+    }
     return threads_of_next(shares(), needs, memory_left_now(), jobs_, record_.report().threads);
 }
 
@@ -358,8 +369,7 @@ void BatchRunner::look_after_work(std::vector<std::size_t>& held) {
         }
         if (now == Beginning::UnderWay) continue;
         work.reset();
-        if (now == Beginning::Elsewhere) held.push_back(index);
-        if (now == Beginning::Over) record_.count_done();
+        leave(index, now, held);
     }
     std::erase(work_, nullptr);
     show_work();
@@ -383,6 +393,12 @@ void BatchRunner::pass_on_preview_request() {
     for (const auto& work : work_) is_shown = work->attempt->show_preview() || is_shown;
     // Until one renders, there is nothing to show.
     if (is_shown) clear_preview_request();
+}
+
+void BatchRunner::stop_with_work() {
+    for (const auto& work : work_) work->attempt->stop();
+    ::raise(SIGSTOP);
+    for (const auto& work : work_) work->attempt->go_on_after_stop();
 }
 
 void BatchRunner::wait_for_others(const std::vector<std::size_t>& held) {

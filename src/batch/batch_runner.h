@@ -10,6 +10,7 @@
 #include "batch/batch_plan.h"
 #include "batch/batch_progress.h"
 #include "batch/batch_record.h"
+#include "batch/batch_sequences.h"
 #include "batch/batch_watcher.h"
 #include "core/parallel.h"
 #include "report/batch_report.h"
@@ -62,9 +63,11 @@ class BatchRunner {
     void make_images(std::deque<std::size_t> waiting);
     /// Begins waiting images for as long as there is room for them; `held` gets those that other processes have.
     void begin_images(std::deque<std::size_t>& waiting, std::vector<std::size_t>& held);
+    /// Notes that an image is over or elsewhere; `held` gets the latter.
+    void leave(std::size_t index, Beginning how, std::vector<std::size_t>& held);
     /// Returns whether the memory that is left holds one more image; if not, says so once.
     bool has_room_for(std::size_t index);
-    /// Returns how many threads the image gets that is the first of `waiting`.
+    /// Returns how many threads the image gets that is the first of `waiting` that may begin.
     [[nodiscard]] int threads_for(const std::deque<std::size_t>& waiting) const;
     [[nodiscard]] std::vector<JobShare> shares() const;
     [[nodiscard]] std::uint64_t memory_left_now() const;
@@ -96,6 +99,8 @@ class BatchRunner {
     void fail(std::size_t index, const std::string& error);
     void show_work();
     void pass_on_preview_request();
+    /// Stops the processes that render, then this one, until it is told to go on.
+    void stop_with_work();
 
     void wait_for_others(const std::vector<std::size_t>& held);
     void tidy() const;
@@ -112,6 +117,7 @@ class BatchRunner {
     std::optional<ThreadPool> threads_{};  ///< if images are rendered in this process
     std::vector<std::unique_ptr<Work>> work_{};
     std::set<std::filesystem::path> invalid_scenes_{};
+    FirstFrames first_frames_{};
     bool has_waited_ = false;  ///< for others
     bool has_waited_for_memory_ = false;
 };

@@ -427,8 +427,7 @@ std::string note_on_exposures(std::span<const BatchTask> tasks, const SettingsOv
         std::ranges::any_of(tasks, [](const BatchTask& task) { return task.job.frame.has_value(); });
     if (!has_sequence || !overrides.png || overrides.has("/color/exposure")) return {};
     return "note: the PNGs of frames that are made at once may flicker, since each frame without an exposure chooses "
-           "its "
-           "own: give --exposure, or \"exposure\" in render.json";
+           "its own: give --exposure, or \"exposure\" in render.json";
 }
 
 }  // namespace etendue

@@ -188,9 +188,6 @@ ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live,
     }
     if (options.dry_run) return run_dry(std::move(tasks.chosen), options, history, *progress);
     prepare_output(options.output);
-    if (options.jobs != 1)
-        if (const std::string note = note_on_exposures(tasks.chosen, options.overrides); !note.empty())
-            progress->say(note);
     std::optional<BatchLivePage> page;
     if (live) page.emplace(*live);
     BatchRunner runner(options, std::move(tasks), history, *progress, page ? &*page : nullptr);

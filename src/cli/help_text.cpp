@@ -33,11 +33,31 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
     return lines;
 }
 
+/// Breaks `name` into lines of at most `width` characters, after its commas and spaces.
+std::string broken_name(const std::string& name, std::size_t width) {
+    constexpr std::size_t kIndent = 10;
+    std::string result;
+    std::size_t used = 0;  // characters of the last line
+    for (std::size_t begin = 0, end = 0; begin < name.size(); begin = end) {
+        end = std::min(name.find_first_of(", ", begin), name.size() - 1) + 1;
+        const std::string piece = name.substr(begin, end - begin);
+        const std::size_t length = characters(piece);
+        if (used > kIndent && used + length - (piece.ends_with(' ') ? 1 : 0) > width) {
+            if (result.ends_with(' ')) result.pop_back();
+            result += "\n" + std::string(kIndent, ' ');
+            used = kIndent;
+        }
+        result += piece;
+        used += length;
+    }
+    return result;
+}
+
 /// Returns `name` and, beside or below it, the lines of `text`, from the column `indent` on.
 std::string entry(const std::string& name, const std::string& text, std::size_t indent, std::size_t width) {
     constexpr std::size_t kLeastText = 24;
     const std::vector<std::string> lines = wrapped(text, std::max(kLeastText, width - std::min(width, indent)));
-    std::string result = "  " + name;
+    std::string result = broken_name("  " + name, width);
     const bool is_beside = characters(result) + 2 <= indent;
     if (!is_beside || lines.empty()) result += "\n";
     for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -10,6 +10,7 @@ namespace {
 // Signal handlers can reach nothing but globals.
 std::atomic<bool> requested{false};
 std::atomic<bool> preview{false};
+std::atomic<bool> stop_asked_for{false};
 std::atomic<int> signal_number{0};
 std::atomic<bool> second_ends{true};
 std::atomic<int> with_nothing_to_keep{0};
@@ -31,6 +32,10 @@ extern "C" void on_signal(int number) {
 
 extern "C" void on_preview_signal(int) {
     preview.store(true);
+}
+
+extern "C" void on_stop_signal(int) {
+    stop_asked_for.store(true);
 }
 
 }  // namespace
@@ -74,6 +79,18 @@ void clear_preview_request() {
 
 ExitCode interrupt_exit_code() {
     return exit_code_of(signal_number.load());
+}
+
+StopRequests::StopRequests() : before_(std::signal(SIGTSTP, on_stop_signal)) {
+    if (before_ == SIG_IGN) std::signal(SIGTSTP, SIG_IGN);
+}
+
+StopRequests::~StopRequests() {
+    std::signal(SIGTSTP, before_);
+}
+
+bool StopRequests::take() {
+    return stop_asked_for.exchange(false);
 }
 
 NothingToKeep::NothingToKeep() {

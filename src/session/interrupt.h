@@ -48,6 +48,22 @@ void request_preview();
 [[nodiscard]] bool preview_requested();
 void clear_preview_request();
 
+/// Makes SIGTSTP (Ctrl-Z) a request while one lives, for who has processes to stop before itself; elsewhere it stops
+/// this process at once. Where SIGTSTP is ignored, it stays so.
+class StopRequests {
+  public:
+    StopRequests();
+    ~StopRequests();
+    StopRequests(const StopRequests&) = delete;
+    StopRequests& operator=(const StopRequests&) = delete;
+
+    /// Returns whether a request has come since the last call.
+    [[nodiscard]] bool take();
+
+  private:
+    void (*before_)(int);
+};
+
 /// Interrupted or Terminated, by the signal that arrived.
 [[nodiscard]] ExitCode interrupt_exit_code();
 

@@ -128,6 +128,20 @@ TEST(BatchProgress, SaysWhenSomethingFailed) {
     EXPECT_TRUE(std::regex_match(said, std::regex(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d  error: no\n)"))) << said;
 }
 
+/// As tests capture stderr in a file, it is no terminal.
+TEST(BatchProgress, WritesALineWithTheTimeWhereThereIsNoTerminal) {
+    testing::internal::CaptureStderr();
+    {
+        const std::chrono::milliseconds no_pause(0);
+        BatchProgress(false, {}, no_pause).update({.done = 1, .of = 3, .under_way = {{"box", "43%"}}, .left = 60.0});
+        BatchProgress(false).update({.done = 2, .of = 3});
+        BatchProgress(true, {}, no_pause).update({.done = 3, .of = 3});
+    }
+    const std::string said = testing::internal::GetCapturedStderr();
+    const std::regex line(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d  \[1/3\] box: 43%  .* elapsed, 1:00 left, ends .*\n)");
+    EXPECT_TRUE(std::regex_match(said, line)) << "one line, as the others are not due or quiet: " << said;
+}
+
 TEST(BatchLog, HasEveryLineWithItsTime) {
     const TestFolder folder;
     {

@@ -293,6 +293,22 @@ TEST_F(Batch, ShowsWhatIsRunningAndWhenItEnds) {
     EXPECT_TRUE(report["units"][0]["fraction"].is_null());
 }
 
+TEST_F(Batch, KeepsTheSumsOfRendersOfMoreThanAMinute) {
+    add_slow_scene("a", 1000.0);
+    const auto option_of_child = [&](const Names& more) {
+        const auto batch = start(more);
+        const std::string command = command_of(child_of(*batch));
+        batch->send(SIGINT);
+        expect_end(*batch, 130);
+        const std::string option = std::string("\0--keep-sums-after", 18) + '\0';
+        const std::size_t found = command.find(option);
+        if (found == std::string::npos) return std::string("none");
+        return command.substr(found + option.size(), command.find('\0', found + option.size()) - found - option.size());
+    };
+    EXPECT_EQ(option_of_child({}), "60");
+    EXPECT_EQ(option_of_child({"--no-keep-sums", "--force"}), "none");
+}
+
 TEST_F(Batch, GoesOnFromTheSumsOfAFinishedImage) {
     add_scene("a");
     EXPECT_EQ(run({"--keep-sums", "--float"}).exit_code, 0);
@@ -644,6 +660,24 @@ TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
     EXPECT_EQ(read_file(work_ / "out/a.png"), image);
 }
 
+/// Ctrl-Z in a terminal reaches the batch alone.
+TEST_F(Batch, WhatRendersForItStopsAndGoesOnWithIt) {
+    add_scene("a");
+    write_file(folder_ / "scenes/a/render.json", R"({"size": [64, 48], "spp": 10000000, "environment": {}})");
+    const auto batch = start();
+    const int child = child_of(*batch);
+    const auto is_stopped = [](int process) {
+        const std::string stat = read_file(fmt::format("/proc/{}/stat", process));
+        return stat.at(stat.rfind(')') + 2) == 'T';
+    };
+    batch->send(SIGTSTP);
+    EXPECT_TRUE(wait_until([&] { return is_stopped(child) && is_stopped(batch->pid()); }));
+    batch->send(SIGCONT);
+    EXPECT_TRUE(wait_until([&] { return !is_stopped(child) && !is_stopped(batch->pid()); }));
+    batch->send(SIGINT);
+    expect_end(*batch, 130);
+}
+
 /// As those that end a job or a container send it. The child gets it twice, once through the batch.
 TEST_F(Batch, ASignalToAllProcessesStillWritesWhatThereIs) {
     add_scene("a");
@@ -719,6 +753,44 @@ TEST_F(BatchJobs, MakeTheSameImagesAndReport) {
     EXPECT_EQ(result_of({"--jobs", "3", "--threads", "3"}), one);
     const ProgramResult difference = run_etendue({"diff", "one.exr", "three.exr", "--json"}, work_);
     EXPECT_EQ(json::parse(difference.out)["measures"]["mse"]["value"], 0.0) << difference.out;
+}
+
+TEST_F(BatchJobs, TheFirstFrameIsMadeBeforeTheOthersWhichTakeItsExposure) {
+    add_scene("a");
+    (void)animated_scene((folder_ / "scenes/a").string());
+    const Names jobs{"--jobs", "3", "--threads", "3", "--frames", "1:4", "--order", "newest"};
+    const ProgramResult result = run_etendue(with_jobs(jobs), work_);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err.find("flicker"), std::string::npos) << result.err;
+    std::istringstream ledger(read_file(work_ / "out/ledger.jsonl"));
+    std::string first;
+    for (std::string line; std::getline(ledger, line);) {
+        const json event = json::parse(line);
+        if (event["event"] != "unit started" && event["event"] != "unit finished") continue;
+        if (first.empty()) first = event["unit"];
+        EXPECT_EQ(event["unit"], first) << line;
+        if (event["event"] == "unit finished") break;
+    }
+    EXPECT_EQ(first, "a.0001");
+    const json chosen = json::parse(read_file(work_ / "out/a.0001.json"))["exposure"];
+    EXPECT_NE(chosen["chosen"], "that of the first frame") << chosen;
+    for (const int frame : {2, 3, 4}) {
+        const json taken = json::parse(read_file(work_ / fmt::format("out/a.{:04}.json", frame)))["exposure"];
+        EXPECT_EQ(taken["chosen"], "that of the first frame") << taken;
+        EXPECT_EQ(taken["stops"], chosen["stops"]);
+    }
+}
+
+/// Nothing waits for ever.
+TEST_F(BatchJobs, TheOtherFramesAreMadeIfTheFirstFails) {
+    add_scene("a");
+    (void)animated_scene((folder_ / "scenes/a").string());
+    fs::create_directories(work_ / "out/a.0001.exr");  // where no image can be written
+    const Names jobs{"--jobs", "2", "--retries", "0", "--frames", "1:3"};
+    const ProgramResult result = run_etendue(with_jobs(jobs), work_);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_EQ(count("unit failed"), (std::map<std::string, int>{{"a.0001", 1}})) << result.err;
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a.0002", 1}, {"a.0003", 1}})) << result.err;
 }
 
 TEST_F(BatchJobs, AreInterruptedTogetherAndKeepTheirCheckpoints) {

@@ -1,13 +1,17 @@
 // `etendue help`, man pages and completions: all of them say what --help says.
 #include "cli/command_help.h"
+#include "cli/command_line.h"
 #include "cli/man_page.h"
 #include "cli/shell_completion.h"
 #include "program/run_program.h"
 #include "program/small_files.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -15,8 +19,12 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace etendue::test {
 
@@ -203,6 +211,44 @@ TEST_F(Manual, OtherShellsAcceptTheirCompletions) {
         }
     }
     if (!missing.empty()) GTEST_SKIP() << "there is no " << missing << " to read them";
+}
+
+/// Returns what --help of `command` says in a terminal of so many columns; empty if there can be no terminal.
+std::string help_in_terminal(const std::string& command, unsigned short columns) {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0) return "";
+    const bool is_open = grantpt(terminal) == 0 && unlockpt(terminal) == 0;
+    const int shown = is_open ? open(ptsname(terminal), O_RDWR | O_NOCTTY) : -1;
+    std::string help;
+    winsize size{};
+    size.ws_col = columns;
+    if (shown >= 0 && ioctl(shown, TIOCSWINSZ, &size) == 0) {
+        std::fflush(stdout);
+        const int before = dup(STDOUT_FILENO);
+        dup2(shown, STDOUT_FILENO);
+        Action none;
+        help = make_command_line(none)->get_subcommand(command)->help("etendue");
+        dup2(before, STDOUT_FILENO);
+        close(before);
+    }
+    if (shown >= 0) close(shown);
+    close(terminal);
+    return help;
+}
+
+TEST(Help, FillsTheTerminalAndNoMore) {
+    for (const auto& [columns, most] : {std::pair(60, 60), std::pair(120, 120), std::pair(200, 120)})
+        for (const std::string command : {"render", "batch", "compare"}) {
+            const std::string help = help_in_terminal(command, static_cast<unsigned short>(columns));
+            if (help.empty()) GTEST_SKIP() << "there is no terminal";
+            std::istringstream lines(help.substr(0, help.find("Examples:")));
+            std::size_t longest = 0;
+            for (std::string line; std::getline(lines, line);) {
+                EXPECT_LE(line.size(), static_cast<std::size_t>(most)) << command << ", " << columns << ": " << line;
+                longest = std::max(longest, line.size());
+            }
+            EXPECT_GE(longest + 8, static_cast<std::size_t>(most)) << command << ", " << columns;
+        }
 }
 
 }  // namespace
