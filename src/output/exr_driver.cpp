@@ -55,6 +55,7 @@ void add_standard_attributes(const OutputFrame& frame, std::vector<ImageAttribut
     add_number("aperture", frame.f_number);
     add_number("focus", frame.focus_distance);
     if (!frame.frame) return;
+    attributes.push_back({"imageCounter", *frame.frame});
     if (const auto rate = frames_per_second(frame.fps)) attributes.push_back({"framesPerSecond", *rate});
     if (const auto code = time_code(*frame.frame, frame.fps)) attributes.push_back({"timeCode", *code});
 }

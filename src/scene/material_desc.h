@@ -39,7 +39,7 @@ struct VolumeDesc {
     int priority = 0;
 };
 
-/// A closed dielectric body whose surface reflects and refracts.
+/// A closed dielectric body whose surface reflects and refracts; the base colour tints what passes it.
 struct DielectricDesc {
     float ior = 1.5f;        ///< against vacuum, in [1, 3]
     float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is perfectly smooth (delta)
@@ -170,7 +170,8 @@ struct MaterialDesc {
     SheenDesc sheen;
     ClearcoatDesc clearcoat;
 
-    /// Set by render.json; replaces everything above but normal, emission, alpha and double_sided.
+    /// Set by render.json; replaces everything above but normal, emission, alpha, double_sided, and the base colour of
+    /// dielectrics.
     MaterialModelDesc override_model;
 
     SourceLocation location;

@@ -21,10 +21,10 @@ namespace etendue {
 
 /// Holds the settings that the scene file's extras give one of its things under the name "etendue".
 struct ExtrasDesc {
-    enum class Of { Material, Light, Camera, Node };
+    enum class Of { Material, Light, Camera, Node, Scene };
 
     Of of = Of::Node;
-    std::string name;  ///< name of the thing
+    std::string name;  ///< name of the thing; none of a scene
     std::string json;  ///< text of a JSON object
     SourceLocation location;
 };

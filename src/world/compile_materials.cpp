@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <vector>
 
 namespace etendue {
 
@@ -29,9 +31,14 @@ Bsdf compile_conductor(const ConductorDesc& desc, const ColorMatrix& from_rec709
     return RoughConductor{fresnel, desc.roughness * desc.roughness};
 }
 
-Bsdf compile_dielectric(const DielectricDesc& desc) {
-    if (is_smooth(desc.roughness) || !bends_light(desc.ior)) return SmoothDielectric{desc.ior};
-    return RoughDielectric::make(desc.ior, desc.roughness * desc.roughness);
+/// Compiles a dielectric whose base colour is the same everywhere: it tints what passes the surface.
+Bsdf compile_dielectric(const DielectricDesc& desc, const Rgb& base_color, const ColorMatrix& from_rec709) {
+    // White is white in every space, but for rounding.
+    const Rgb tint = base_color == Rgb(1.0f) ? base_color : clamp_unit(from_rec709(base_color));
+    if (is_smooth(desc.roughness) || !bends_light(desc.ior)) return SmoothDielectric{.ior = desc.ior, .tint = tint};
+    RoughDielectric rough = RoughDielectric::make(desc.ior, desc.roughness * desc.roughness);
+    rough.tint = tint;
+    return rough;
 }
 
 Bsdf compile_diffuse(const DiffuseDesc& desc, const ColorMatrix& from_rec709) {
@@ -91,6 +98,21 @@ GltfModel compile_subsurface(const SubsurfaceDesc& desc) {
     return model;
 }
 
+/// Compiles a dielectric whose base colour a texture or the mesh varies, as glTF's glass.
+GltfModel compile_varied_dielectric(const DielectricDesc& desc, const MaterialDesc& material,
+                                    TextureCompiler& textures) {
+    GltfModel model;
+    model.base_color = material.base_color;
+    model.base_color_texture = textures.slot(material.base_color_texture, TextureUse::Color);
+    model.metallic = 0.0f;
+    model.roughness = desc.roughness;
+    model.f0 = f0_from_ior(desc.ior);
+    model.transmission = 1.0f;
+    model.refracts = true;
+    model.ior = desc.ior;
+    return model;
+}
+
 GltfModel compile_gltf(const MaterialDesc& desc, TextureUse base_use, TextureCompiler& textures) {
     GltfModel model;
     model.base_color = desc.base_color;
@@ -132,14 +154,19 @@ Beam compile_beam(const BeamDesc& desc) {
     return {};
 }
 
-Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec709, TextureCompiler& textures) {
+/// `is_colored` says whether vertices with the material have colours of their own.
+Material compile_material(const MaterialDesc& desc, bool is_colored, const ColorMatrix& from_rec709,
+                          TextureCompiler& textures) {
     Material material;
     // Rays that a filter lets through would not know that they are in a body; what passes its surface is transmission.
     const bool has_alpha = desc.alpha_mode != AlphaMode::Opaque && !compile_filling(desc, from_rec709);
     if (const auto* conductor = std::get_if<ConductorDesc>(&desc.override_model))
         material.model = compile_conductor(*conductor, from_rec709);
-    else if (const auto* dielectric = std::get_if<DielectricDesc>(&desc.override_model))
-        material.model = compile_dielectric(*dielectric);
+    else if (const auto* dielectric = std::get_if<DielectricDesc>(&desc.override_model);
+             dielectric != nullptr && (is_colored || desc.base_color_texture.valid()))
+        material.model = compile_varied_dielectric(*dielectric, desc, textures);
+    else if (dielectric != nullptr)
+        material.model = compile_dielectric(*dielectric, desc.base_color, from_rec709);
     else if (const auto* diffuse = std::get_if<DiffuseDesc>(&desc.override_model))
         material.model = compile_diffuse(*diffuse, from_rec709);
     else if (const auto* subsurface = std::get_if<SubsurfaceDesc>(&desc.override_model))
@@ -211,6 +238,16 @@ class LeastRoughness {
     std::map<std::int32_t, std::optional<TexelRange>> ranges_;  ///< by texture
 };
 
+/// Tells of each material of the scene whether vertices with it have colours.
+std::vector<bool> find_colored_materials(const SceneDesc& scene) {
+    std::vector<bool> is_colored(scene.materials.size(), false);
+    for (const MeshDesc& mesh : scene.meshes)
+        for (const PrimitiveDesc& primitive : mesh.primitives)
+            if (primitive.material.valid() && !primitive.colors.empty())
+                is_colored[static_cast<std::size_t>(primitive.material.index)] = true;
+    return is_colored;
+}
+
 bool is_specular(const Material& material, LeastRoughness& roughness) {
     if (material.unlit) return false;
     if (const Bsdf* constant = std::get_if<Bsdf>(&material.model))
@@ -229,8 +266,10 @@ void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldD
     data.materials.clear();
     data.fillings.clear();
     data.materials.reserve(scene.materials.size());
-    for (const MaterialDesc& desc : scene.materials) {
-        data.materials.push_back(compile_material(desc, data.from_rec709, textures));
+    const std::vector<bool> is_colored = find_colored_materials(scene);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const MaterialDesc& desc = scene.materials[i];
+        data.materials.push_back(compile_material(desc, is_colored[i], data.from_rec709, textures));
         const std::optional<Filling> filling = compile_filling(desc, data.from_rec709);
         // A body that paths enter and do not leave would fill the space behind it.
         data.materials.back().culls_back = scene.settings.cull_backfaces && !desc.double_sided && !filling;

@@ -38,8 +38,10 @@ void evaluate_uniform_materials(WorldData& data) {
 Bsdf with_relative_ior(const Bsdf& bsdf, float relative_ior) {
     const auto* rough = std::get_if<RoughDielectric>(&bsdf);
     const Vec2f alpha = rough != nullptr ? Vec2f(rough->alpha_x, rough->alpha_y) : Vec2f(0.0f, 0.0f);
+    const auto* smooth = std::get_if<SmoothDielectric>(&bsdf);
+    const Rgb tint = rough != nullptr ? rough->tint : smooth != nullptr ? smooth->tint : Rgb(1.0f);
     return std::visit([](const auto& interface) { return Bsdf(interface); },
-                      make_interface(relative_ior, alpha, Rgb(1.0f), {}));
+                      make_interface(relative_ior, alpha, tint, {}));
 }
 
 }  // namespace

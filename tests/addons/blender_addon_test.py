@@ -62,6 +62,9 @@ class Image(unittest.TestCase):
         vcm = written(fake.scene(integrator="vcm", connections=4, merge="all")).document["integrator"]
         self.assertEqual((vcm["merge"], vcm["connections"]), ("all", "cache:4"))
         self.assertNotIn("light_samples", vcm)
+        auto = written(fake.scene(integrator="auto", connections=4, merge="all", heuristic="power")).document["integrator"]
+        self.assertEqual((auto["merge"], auto["merge_radius"]), ("all", 1.5))
+        self.assertEqual((auto["connections"], auto["heuristic"]), ("cache:4", "power"))
 
     def test_mist_is_blenders_where_its_pass_is_asked_for(self):
         scene = fake.scene()

@@ -68,6 +68,36 @@ def matte(image):
     bpy.ops.render.render(write_still=True)
 
 
+def read_files(parts, denoising, matte_image, shown_image):
+    """Writes, as two images, what the compositor makes of files of the program's: the matte of `Sail` in the one, and what an
+    image node shows of the other."""
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 64, 48, 100
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_depth, settings.exr_codec = "OPEN_EXR", "32", "ZIP"
+    scene.use_nodes = True
+    tree = scene.node_tree
+    for node in [node for node in tree.nodes if node.type == "R_LAYERS"]:
+        tree.nodes.remove(node)  # without which nothing but the compositor works
+    composite = next(node for node in tree.nodes if node.type == "COMPOSITE")
+
+    def write(output, path):
+        tree.links.new(output, composite.inputs["Image"])
+        scene.render.filepath = path
+        bpy.ops.render.render(write_still=True)
+
+    image = tree.nodes.new("CompositorNodeImage")
+    image.image = bpy.data.images.load(denoising)
+    write(image.outputs[0], shown_image)
+    crypto = tree.nodes.new("CompositorNodeCryptomatteV2")
+    crypto.source, crypto.image = "IMAGE", bpy.data.images.load(parts)
+    tree.links.new(crypto.outputs["Matte"], composite.inputs["Image"])
+    bpy.ops.render.render()  # after which the node knows the layers
+    crypto.layer_name = "CryptoObject"  # an error where it does not
+    crypto.matte_id = "Sail"
+    write(crypto.outputs["Matte"], matte_image)
+
+
 def previews(answer):
     """Writes the means of all images that are shown while one is rendered, the last of which is the image itself."""
     import etendue.engine
@@ -115,17 +145,23 @@ def draw_all():
 def panels(answer):
     """Writes which panels are drawn with the engine, and which of them stay when it goes."""
     import addon_utils
+    from etendue import panels as own_panels
     bpy.context.scene.render.engine = "ETENDUE"
 
     def ours():
         return [panel for panel in bpy.types.Panel.__subclasses__() if "ETENDUE" in getattr(panel, "COMPAT_ENGINES", ())]
 
     names = sorted(panel.__name__ for panel in ours())
+    caustics = {}
+    for integrator in ("path", "bdpt", "auto"):
+        bpy.context.scene.etendue.integrator = integrator
+        caustics[integrator] = own_panels.ETENDUE_RENDER_PT_caustics.poll.__func__(
+            own_panels.ETENDUE_RENDER_PT_caustics, SimpleNamespace(scene=bpy.context.scene, engine="ETENDUE"))
     draw_all()
     addon_utils.disable("etendue")
     left = [panel.__name__ for panel in ours() if panel.is_registered]
     addon_utils.enable("etendue")
-    Path(answer).write_text(json.dumps({"names": names, "left": left}))
+    Path(answer).write_text(json.dumps({"names": names, "left": left, "caustics": caustics}))
 
 
 def files(blend, answer):

@@ -3,6 +3,7 @@
 Ends with 77 where there is no Blender, or one without numpy."""
 
 import json
+import math
 import os
 import shutil
 import signal
@@ -136,6 +137,33 @@ class Renders(InBlender):
         self.inside("matte", image)
         # The ball covers 395 of 6,912 pixels.
         self.assertAlmostEqual(self.means(image, "")[""][0], 395 / 6912, delta=0.004)
+
+    def test_the_compositor_reads_files_of_the_program(self):
+        """Cryptomattes in parts of a file; and the image, not one of its halves, of a file with layers for denoising."""
+        folder = self.folder / "sail"
+        folder.mkdir()
+        corners = struct.pack("<9f", -1, -1, -2, 1, -1, -2, 0, 1, -2)
+        (folder / "scene.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"name": "Sail", "mesh": 0}, {"name": "View", "camera": 0}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, -2],
+                           "max": [1, 1, -2]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "corners.bin", "byteLength": 36}]}))
+        (folder / "corners.bin").write_bytes(corners)
+        (folder / "render.json").write_text(json.dumps({"size": [64, 48], "environment": {"color": [0.25, 0.5, 0.75]}}))
+        files = [self.folder / name for name in ("parts.exr", "denoising.exr", "matte.exr", "shown.exr")]
+        parts, denoising, matte, shown = files
+        for image, layers in ((parts, ("cryptomatte", "--aov-layout", "parts")), (denoising, ("denoising",))):
+            subprocess.run([PROGRAM, "render", folder, "--integrator", "path", "--spp", "16", "--float", "--quiet", "-o", image,
+                            "--aov", *layers], check=True)
+        self.inside("read_files", *files)
+        # A triangle as wide as 1 - y at the height y, in a view that is 2 h high and 8/3 h wide, where h is 2 tan 0.4.
+        self.assertAlmostEqual(self.means(matte, "")[""][0], 3.0 / (16.0 * math.tan(0.4)), delta=0.005)
+        for layer, differs in (("", False), ("half.", True)):
+            expected = f"numpy.stack([read_exr(Path({str(denoising)!r})).channels['{layer}' + l] for l in 'RGB'])"
+            self.assertEqual(self.python(f"float(abs(p('') - {expected}).max())", shown) > 1e-5, differs, layer)
 
     def test_the_image_is_shown_as_it_grows(self):
         answer = self.folder / "answer.json"
@@ -338,6 +366,7 @@ class Rest(InBlender):
                               "ETENDUE_LIGHT_PT_light", "DATA_PT_camera_dof"}, set(found["names"]))
         self.assertFalse([name for name in found["names"] if name.startswith(("DATA_PT_EEVEE", "DATA_PT_area", "DATA_PT_spot"))])
         self.assertEqual(found["left"], [])
+        self.assertEqual(found["caustics"], {"auto": True, "path": False, "bdpt": True})
 
     def test_what_needs_numpy(self):
         self.inside("units")

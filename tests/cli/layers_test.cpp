@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace etendue::test {
 
@@ -102,13 +103,19 @@ TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
       {"name": "key light", "type": "directional", "color": [1, 0, 0], "intensity": 900},
       {"name": "* light", "type": "directional", "color": [0, 0, 1], "intensity": 500}]}},)");
     replace(R"("nodes": [0, 1]}])", R"("nodes": [0, 1, 2, 3]}])");
-    replace(R"({"name": "main", "camera": 0}])", R"({"name": "main", "camera": 0},
-            {"name": "key light", "extensions": {"KHR_lights_punctual": {"light": 0}}},
+    replace(R"({"name": "main", "camera": 0}])", R"({"name": "Stand", "camera": 0},
+            {"name": "Key object", "extensions": {"KHR_lights_punctual": {"light": 0}}},
             {"name": "* light", "extensions": {"KHR_lights_punctual": {"light": 1}}}])");
     write_file(file, scene);
-    const ProgramResult result =
-        render("a.exr", {"--aov", "lights", "--aov", "warm=light:k*", "--working-space", "lin_rec709"});
+    const ProgramResult result = render("a.exr", {"--aov", "lights", "--aov", "warm=light:k*", "--aov",
+                                                  "object=light:Key object", "--working-space", "lin_rec709"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json inspected =
+        nlohmann::json::parse(run_etendue({"inspect", (folder_ / "box").string(), "--json"}, work_).out);
+    EXPECT_EQ(inspected.at("lights"), nlohmann::json::array({"key light", "* light"}));
+    EXPECT_EQ(inspected.at("light_nodes"), nlohmann::json::array({"Key object", "* light"}));
+    EXPECT_EQ(inspected.at("cameras"), nlohmann::json::array({"main"}));
+    EXPECT_EQ(inspected.at("camera_nodes"), nlohmann::json::array({"Stand"}));
     const LayeredImage layered = read_layers(work_ / "a.exr");
     const auto layer = [&](const std::string& name) {
         const auto found = find_layer(layered, name);
@@ -120,6 +127,7 @@ TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
     const ImageF rim = layer("light___light");
     const ImageF sky = layer("light_environment");
     const ImageF warm = layer("warm");
+    const ImageF object = layer("object");
     ASSERT_FALSE(HasFailure());
     double reds = 0.0;
     double blues = 0.0;
@@ -129,6 +137,7 @@ TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
                 const float sum = key.pixel(x, y)[c] + rim.pixel(x, y)[c] + sky.pixel(x, y)[c];
                 EXPECT_NEAR(sum, image.pixel(x, y)[c], 1e-5f * (1.0f + std::abs(sum)));
                 EXPECT_EQ(warm.pixel(x, y)[c], key.pixel(x, y)[c]);
+                EXPECT_EQ(object.pixel(x, y)[c], key.pixel(x, y)[c]) << "by the name of its node";
             }
             EXPECT_EQ(key.pixel(x, y)[2], 0.0f);
             EXPECT_EQ(rim.pixel(x, y)[0], 0.0f);
@@ -137,6 +146,19 @@ TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
         }
     EXPECT_GT(reds, 0.0);
     EXPECT_GT(blues, 0.0);
+}
+
+// The data window has the pixels, the display window the image.
+TEST_F(Layers, WindowsTellOfOverscan) {
+    const std::vector<Arguments> ways{{"--crop", "-8,-8,24,20"}, {"--overscan", "8"}};
+    for (const Arguments& way : ways) {
+        const ProgramResult result = render("a.exr", way);
+        ASSERT_EQ(result.exit_code, 0) << way.front() << ": " << result.err;
+        const ChannelImage image = read_channels(work_ / "a.exr");
+        EXPECT_EQ(image.data_window, (PixelRect{-8, -8, 24, 20})) << way.front();
+        EXPECT_EQ(image.display_window, (PixelRect{0, 0, 16, 12})) << way.front();
+        EXPECT_EQ(image.pixels.width, 32) << way.front();
+    }
 }
 
 // All layers of all kinds, those of half of the samples included.

@@ -60,7 +60,9 @@ TEST_F(BlenderCases, GlassIsClosedByOneWord) {
     const MaterialDesc solid = glass_of(R"({"materials": {"Glass": {"solid": true}}})");
     EXPECT_TRUE(solid.volume.closed);
     EXPECT_EQ(solid.transmission, 1.0f);
-    EXPECT_NEAR(solid.base_color.r, 0.8f, 1e-6f) << "which a dielectric would drop";
+    EXPECT_NEAR(solid.base_color.r, 0.8f, 1e-6f);
+    const MaterialDesc dielectric = glass_of(R"({"materials": {"Glass": {"dielectric": {}}}})");
+    EXPECT_NEAR(dielectric.base_color.r, 0.8f, 1e-6f) << "which tints what passes it, too";
 }
 
 TEST_F(BlenderCases, CamerasHaveTheNamesOfObjects) {

@@ -98,6 +98,7 @@ TEST(ExrDriver, CarriesStandardAttributesOfShots) {
     EXPECT_EQ(spec.get_float_attribute("FNumber"), 2.0f);
     EXPECT_EQ(spec.get_float_attribute("focus"), 3.5f);
     EXPECT_NE(spec.find_attribute("utcOffset", OIIO::TypeDesc::FLOAT), nullptr);
+    EXPECT_EQ(spec.get_int_attribute("imageCounter"), 1450);
     const auto* rate = spec.find_attribute("framesPerSecond", OIIO::TypeRational);
     ASSERT_TRUE(rate);
     EXPECT_EQ(static_cast<const int*>(rate->data())[0], 24);
@@ -110,6 +111,7 @@ TEST(ExrDriver, CarriesStandardAttributesOfShots) {
     still.owner.clear();
     ExrDriver(folder / "b.exr", ColorConfig::built_in()).write(still);
     EXPECT_EQ(spec_of(folder / "b.exr").find_attribute("smpte:TimeCode"), nullptr);
+    EXPECT_EQ(spec_of(folder / "b.exr").find_attribute("imageCounter"), nullptr);
     EXPECT_EQ(spec_of(folder / "b.exr").find_attribute("Copyright"), nullptr);
 }
 

@@ -45,6 +45,20 @@ TEST(CompileMaterials, OverridesBecomeTheLobesTheyName) {
     (void)lobe_of<SmoothConductor>(with_override(ConductorDesc{"", 0.0f}));
 }
 
+TEST(CompileMaterials, DielectricsKeepTheBaseColour) {
+    for (const float roughness : {0.0f, 0.5f}) {
+        const auto tint_in = [&](const Rgb& base_color, const std::string& space) {
+            MaterialDesc desc = with_override(DielectricDesc{1.5f, roughness});
+            desc.base_color = base_color;
+            const Bsdf lobe = std::get<Bsdf>(compile_one(desc, space).model);
+            return roughness > 0.0f ? std::get<RoughDielectric>(lobe).tint : std::get<SmoothDielectric>(lobe).tint;
+        };
+        EXPECT_EQ(tint_in({0.25f, 0.5f, 0.75f}, kGltfColorSpace), Rgb(0.25f, 0.5f, 0.75f));
+        EXPECT_NEAR(tint_in({1.0f, 0.0f, 0.0f}, "ACEScg").r, 0.613f, 0.002f);
+        EXPECT_EQ(tint_in(Rgb(1.0f), "ACEScg"), Rgb(1.0f)) << "white has no rounding";
+    }
+}
+
 TEST(CompileMaterials, TheUnnamedMetalLosesNothingAndGoldIsYellow) {
     const auto reflectance = [](const char* metal) {
         const Bsdf mirror = lobe_of<SmoothConductor>(with_override(ConductorDesc{metal, 0.0f}));

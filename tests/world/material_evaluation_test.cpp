@@ -29,6 +29,13 @@ class MaterialEvaluation : public testing::Test {
         scene_.textures.back().filter = TextureFilter::Nearest;
         return handle;
     }
+    /// Returns a scene without surfaces that has the textures so far.
+    [[nodiscard]] SceneDesc scene_of_textures() const {
+        SceneDesc scene = empty_scene();
+        scene.images = scene_.images;
+        scene.textures = scene_.textures;
+        return scene;
+    }
     World world_with(const MaterialDesc& material) {
         surface_.material = add_material(scene_, material);
         place(scene_, add_mesh(scene_, {surface_}));
@@ -355,6 +362,44 @@ TEST_F(MaterialEvaluation, WhatVariesWithATextureIsEvaluatedAtEachPoint) {
     MaterialDesc material;
     material.transmission_texture.texture = texture(1, {{128, 0, 0, 255}});
     EXPECT_TRUE(is_made_for_the_point(world_with(material), 0.0f));
+}
+
+// As glTF's glass does, wherever the colour comes from and whatever is around it.
+TEST_F(MaterialEvaluation, DielectricsKeepTheBaseColour) {
+    MaterialDesc glass;
+    glass.base_color = {0.9f, 0.6f, 0.3f};
+    glass.metallic = 0.0f;
+    glass.transmission = 1.0f;
+    glass.volume.closed = true;
+    const Handle<TextureDesc> paint = texture(1, {{188, 100, 20, 255}});
+    for (const bool has_texture : {false, true})
+        for (const bool has_colors : {false, true})
+            for (const float roughness : {0.0f, 0.5f}) {
+                glass.base_color_texture.texture = has_texture ? paint : Handle<TextureDesc>();
+                surface_.colors.assign(has_colors ? 4 : 0, {0.5f, 1.0f, 0.25f, 1.0f});
+                glass.roughness = roughness;
+                MaterialDesc dielectric = glass;
+                dielectric.transmission = 0.0f;
+                dielectric.override_model = DielectricDesc{1.5f, roughness};
+                for (const float relative_ior : {0.0f, 1.2f}) {
+                    const auto tint_of = [&](const MaterialDesc& material) {
+                        scene_ = scene_of_textures();
+                        const World world = world_with(material);
+                        const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
+                        Bsdf storage;
+                        const Bsdf& lobe = world.materials().bsdf(world.geometry().surface_point(hit), {0, 0, 1},
+                                                                  relative_ior, storage);
+                        return roughness > 0.0f ? std::get<RoughDielectric>(lobe).tint
+                                                : std::get<SmoothDielectric>(lobe).tint;
+                    };
+                    const Rgb tint = tint_of(dielectric);
+                    const Rgb expected = tint_of(glass);
+                    EXPECT_LT(expected.b, 0.31f);
+                    EXPECT_NEAR(tint.r, expected.r, 1e-6f) << has_texture << has_colors << roughness << relative_ior;
+                    EXPECT_NEAR(tint.g, expected.g, 1e-6f) << has_texture << has_colors << roughness << relative_ior;
+                    EXPECT_NEAR(tint.b, expected.b, 1e-6f) << has_texture << has_colors << roughness << relative_ior;
+                }
+            }
 }
 
 TEST_F(MaterialEvaluation, ABodysInterfaceIsEvaluatedForWhatIsAroundIt) {

@@ -68,13 +68,13 @@ class ETENDUE_RENDER_PT_caustics(RenderPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.scene.etendue.integrator in ("bdpt", "vcm")
+        return super().poll(context) and context.scene.etendue.integrator in ("auto", "bdpt", "vcm")
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, column = context.scene.etendue, self.column()
         column.prop(settings, "heuristic")
         column.prop(settings, "connections")
-        if settings.integrator == "vcm":
+        if settings.integrator in ("auto", "vcm"):
             column.prop(settings, "merge")
             column.prop(settings, "merge_radius")
 

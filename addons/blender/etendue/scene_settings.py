@@ -57,16 +57,16 @@ def film_settings(render: Any, settings: Any) -> Document:
 
 
 def integrator_settings(settings: Any) -> Document:
-    """Only what the chosen integrator looks at."""
+    """Only what the chosen integrator looks at, or with 'auto' one that may be chosen for its caustics."""
     kind = settings.integrator
     result: Document = {"type": kind, "max_depth": settings.max_depth}
     if kind in ("path", "direct"):
         result["light_samples"] = settings.light_samples
-    if kind in ("bdpt", "vcm"):
+    if kind in ("auto", "bdpt", "vcm"):
         result["heuristic"] = settings.heuristic
         if settings.connections > 0:
             result["connections"] = f"cache:{settings.connections}"
-    if kind == "vcm":
+    if kind in ("auto", "vcm"):
         result |= {"merge": settings.merge, "merge_radius": settings.merge_radius}
     return result
 

@@ -360,7 +360,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     check_rules(document, result.at(""), found);
     const std::vector<PrimitiveIndices> indices = take_indices(document, result, found);
     take_images(document, result, found);
-    take_extras(document, result);
+    take_extras(document, result, found);
     take_animations_and_skins(document, result);
     GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.inputs, result.absent_buffers);
     list_images(result);

@@ -34,6 +34,26 @@ void take_from(const nlohmann::json* things, const std::string& pointer, ExtrasD
     }
 }
 
+/// Returns whether the extras of `thing` have settings.
+bool has_settings(const nlohmann::json* thing) {
+    return member_of(member_of(thing, "extras"), kExtrasKey) != nullptr;
+}
+
+/// Warns once of settings in the extras of `things`, where nobody reads them.
+void warn_of_unread(const nlohmann::json* things, const std::string& pointer, const GltfDocument& result,
+                    ProblemList& problems) {
+    if (things == nullptr) return;
+    const auto warn = [&](const std::string& thing) {
+        problems.warning(result.at(child_pointer(child_pointer(thing, "extras"), kExtrasKey)),
+                         "is not read here: it belongs into the extras of a scene, a node, a material, a camera or a "
+                         "light");
+    };
+    if (has_settings(things)) return warn(pointer);
+    if (!things->is_array()) return;
+    for (std::size_t i = 0; i < things->size(); ++i)
+        if (has_settings(&(*things)[i])) return warn(child_pointer(pointer, i));
+}
+
 /// Bounds the bytes of all extras: any number of places may share what is said of a camera or a light.
 constexpr std::size_t kMostExtrasBytes = std::size_t{64} << 20;
 
@@ -73,7 +93,11 @@ class ExtrasReader {
 
 }  // namespace
 
-void take_extras(const nlohmann::json& document, GltfDocument& result) {
+void take_extras(const nlohmann::json& document, GltfDocument& result, ProblemList& problems) {
+    warn_of_unread(&document, "", result, problems);
+    for (const char* key : {"asset", "meshes", "animations", "skins", "images", "textures", "samplers"})
+        warn_of_unread(member_of(&document, key), child_pointer("", key), result, problems);
+    take_from(member_of(&document, "scenes"), "/scenes", ExtrasDesc::Of::Scene, result);
     take_from(member_of(&document, "materials"), "/materials", ExtrasDesc::Of::Material, result);
     take_from(member_of(&document, "nodes"), "/nodes", ExtrasDesc::Of::Node, result);
     take_from(member_of(&document, "cameras"), "/cameras", ExtrasDesc::Of::Camera, result);
@@ -83,12 +107,14 @@ void take_extras(const nlohmann::json& document, GltfDocument& result) {
 
 void read_extras(const GltfDocument& document, SceneDesc& scene) {
     ExtrasReader reader(document, scene);
-    // What is said of one node comes after what is said of all that share its data.
+    // What is said of one node comes after what is said of all that share its data, and that after what is said of all.
     for (const GltfExtras& extras : document.extras) {
         if (extras.of == ExtrasDesc::Of::Node) continue;
         const std::string thing = extras.pointer.substr(0, extras.pointer.rfind("/extras/"));
         if (extras.of == ExtrasDesc::Of::Material && extras.index < scene.materials.size())
             reader.add(extras, ExtrasDesc::Of::Material, scene.materials[extras.index].name);
+        if (extras.of == ExtrasDesc::Of::Scene && extras.index == scene.shown_scene)
+            reader.add(extras, ExtrasDesc::Of::Scene, {});
         if (extras.of == ExtrasDesc::Of::Camera)
             for (const CameraDesc& camera : scene.cameras)
                 if (camera.location.pointer == thing) reader.add(extras, ExtrasDesc::Of::Camera, camera.name);

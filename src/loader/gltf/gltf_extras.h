@@ -8,8 +8,9 @@
 
 namespace etendue {
 
-/// Notes in `result` all that the extras of the checked `document` say of its materials, nodes, cameras and lights.
-void take_extras(const nlohmann::json& document, GltfDocument& result);
+/// Notes in `result` all that the extras of the checked `document` say of its scenes, materials, nodes, cameras and
+/// lights; `problems` gets a warning for each other kind of thing of which they say something.
+void take_extras(const nlohmann::json& document, GltfDocument& result, ProblemList& problems);
 
 /// Finds what of the loaded `scene` the document's extras are about, and leaves out what is not shown.
 void read_extras(const GltfDocument& document, SceneDesc& scene);

@@ -95,6 +95,10 @@ class ExtrasMerger {
     void merge(const ExtrasDesc& extras) {
         std::optional<ExtrasJson> value = object_of(extras, problems_);
         if (!value) return;
+        if (extras.of == ExtrasDesc::Of::Scene) {
+            merge_scene(extras, *value);
+            return;
+        }
         if (extras.name.empty()) {
             problems_.warning(extras.location, "what these extras are of has no name, by which settings find it");
             return;
@@ -108,6 +112,50 @@ class ExtrasMerger {
     }
 
   private:
+    /// Merges the sections of render.json that are about the scene's things; a render's settings are known before its
+    /// file is read.
+    void merge_scene(const ExtrasDesc& extras, const ExtrasJson& sections) {
+        for (const auto& [key, section] : sections.items()) {
+            const SourceLocation where{extras.location.file, child_pointer(extras.location.pointer, key)};
+            if (key == "environment")
+                merge_environment(section, where);
+            else if (key == "cameras")
+                merge_section(ExtrasDesc::Of::Camera, section, where);
+            else if (key == "lights")
+                merge_section(ExtrasDesc::Of::Light, section, where);
+            else if (key == "materials")
+                merge_section(ExtrasDesc::Of::Material, section, where);
+            else
+                problems_.warning(where,
+                                  "is not read here: it belongs in render.json; a scene's extras may have "
+                                  "cameras, environment, lights and materials");
+        }
+    }
+    void merge_section(ExtrasDesc::Of of, const ExtrasJson& section, const SourceLocation& where) {
+        if (!section.is_object()) {
+            problems_.warning(where, fmt::format("must be an object, but is {}", json_kind(section)));
+            return;
+        }
+        for (const auto& [name, said] : section.items())
+            merge({of, name, said.dump(), {where.file, child_pointer(where.pointer, name)}});
+    }
+    void merge_environment(const ExtrasJson& said, const SourceLocation& where) {
+        std::optional<ExtrasJson> value = object_of({ExtrasDesc::Of::Scene, {}, said.dump(), where}, problems_);
+        if (!value) return;
+        const auto try_reading = [&](const ExtrasJson& what, ProblemList& found) {
+            static_cast<void>(read_environment(what, where, found));
+        };
+        if (!leave_out_wrong(*value, where, try_reading, problems_)) return;
+        ProblemList known;  // to whoever has read the parts
+        const auto given = document_.find("environment");
+        if (given == document_.end()) {
+            json_.environment = read_environment(*value, where, known);
+        } else if (given->is_object() && json_.environment) {
+            value->update(*given);
+            json_.environment = read_environment(*value, json_.environment->location, known);
+        }
+    }
+
     template <typename Override, typename Read>
     void merge_into(std::map<std::string, Override>& overrides, const char* section, const ExtrasDesc& extras,
                     ExtrasJson& value, const Read& read) {

@@ -114,7 +114,8 @@ void apply_environment(const RenderJson& json, std::span<const std::filesystem::
     if (scene.environment.image.empty()) return;
 
     const std::string name = scene.environment.image.string();
-    const SourceLocation where{json.location.file, child_pointer(scene.environment.location.pointer, "image")};
+    const std::string& source = scene.environment.location.file;
+    const SourceLocation where{source, child_pointer(scene.environment.location.pointer, "image")};
     scene.environment.image.clear();
     try {
         const std::filesystem::path file = resolve_asset(scene.directory, assets, name);
@@ -125,7 +126,11 @@ void apply_environment(const RenderJson& json, std::span<const std::filesystem::
         scene.environment.image = file;
         scene.inputs.push_back(file);
     } catch (const IoError& error) {
-        problems.error(where, fmt::format("'{}': {}", shown(name), error.what()));
+        // The scene file's extras bring no errors.
+        const bool is_from_extras = source != json.location.file;
+        scene.environment.enabled = !is_from_extras;
+        problems.add({is_from_extras ? Severity::Warning : Severity::Error, where,
+                      fmt::format("'{}': {}", shown(name), error.what())});
     }
 }
 

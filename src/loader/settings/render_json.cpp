@@ -26,21 +26,6 @@ constexpr auto kMetals = [] {
     return names;
 }();
 
-EnvironmentDesc read_environment(const Json& value, const SourceLocation& where, ProblemList& problems) {
-    EnvironmentDesc result;
-    result.enabled = true;
-    result.location = where;
-    JsonObject object(value, where, problems);
-    std::string image;
-    if (object.text("image", image)) result.image = image;
-    object.color("color", kNotNegative, result.color);
-    object.number("scale", kNotNegative, result.scale);
-    object.number("rotation", kAnyNumber, result.rotation);
-    object.boolean("visible_to_camera", result.visible_to_camera);
-    object.finish();
-    return result;
-}
-
 /// False, and an error, if there is no such view.
 bool check_aim(const CameraAim& aim, JsonObject& object) {
     const Vec3f back(aim.position - aim.look_at);
@@ -266,6 +251,21 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
 }
 
 }  // namespace
+
+EnvironmentDesc read_environment(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    EnvironmentDesc result;
+    result.enabled = true;
+    result.location = where;
+    JsonObject object(value, where, problems);
+    std::string image;
+    if (object.text("image", image)) result.image = image;
+    object.color("color", kNotNegative, result.color);
+    object.number("scale", kNotNegative, result.scale);
+    object.number("rotation", kAnyNumber, result.rotation);
+    object.boolean("visible_to_camera", result.visible_to_camera);
+    object.finish();
+    return result;
+}
 
 MaterialOverride read_material(const Json& value, const SourceLocation& where, ProblemList& problems) {
     MaterialOverride result;

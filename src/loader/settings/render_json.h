@@ -66,6 +66,10 @@ struct RenderJson {
     std::string document;        ///< the text of all of it
 };
 
+/// Reads the member `environment`.
+[[nodiscard]] EnvironmentDesc read_environment(const nlohmann::json& value, const SourceLocation& where,
+                                               ProblemList& problems);
+
 /// Reads one member of `materials`.
 [[nodiscard]] MaterialOverride read_material(const nlohmann::json& value, const SourceLocation& where,
                                              ProblemList& problems);

@@ -9,13 +9,15 @@ namespace {
 using Json = nlohmann::json;
 
 /// A triangle of material "paper", a node "Bulb" with the point light "lamp" of 10 cd, an empty node "Spare" and a
-/// camera "main"; each has these extras, null for none.
+/// camera "main"; each, their scene and the triangle's mesh have these extras, null for none.
 struct Extras {
     Json material{};
     Json node{};
     Json light{};
     Json empty{};
     Json camera{};
+    Json scene{};
+    Json mesh{};
 };
 
 LoadedScene load_extras(const Extras& extras, const std::string& settings = "") {
@@ -37,6 +39,8 @@ LoadedScene load_extras(const Extras& extras, const std::string& settings = "") 
     nodes.push_back({{"name", "Spare"}});
     say(nodes[2], extras.empty);
     builder.json["scenes"][0]["nodes"] = {0, 1, 2};
+    say(builder.json["scenes"][0], extras.scene);
+    say(builder.json["meshes"][0], extras.mesh);
     builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
     builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"name", "lamp"}, {"intensity", 10}}};
@@ -108,6 +112,15 @@ TEST(Extras, ThatAreWrongAreWarningsAndTheRestHolds) {
     expect({.empty = {{"type", "rectangle"}}}, "must have a", "/nodes/2/extras/etendue");
     expect({.empty = {{"type", "rectangle"}, {"power", 1}, {"radius", 1}}}, "has no radius",
            "/nodes/2/extras/etendue/radius");
+    expect({.scene = {{"spp", 4}}}, "belongs in render.json", "/scenes/0/extras/etendue/spp");
+    expect({.scene = {{"materials", 3}}}, "must be an object", "/scenes/0/extras/etendue/materials");
+    expect({.scene = {{"materials", {{"paper", {{"metallic", 2}}}}}}}, "must be a number in [0, 1]",
+           "/scenes/0/extras/etendue/materials/paper/metallic");
+    expect({.scene = {{"environment", {{"scale", -1}}}}}, "", "/scenes/0/extras/etendue/environment/scale");
+    const SceneDesc without = expect({.scene = {{"environment", {{"image", "missing.exr"}}}}}, "missing.exr",
+                                     "/scenes/0/extras/etendue/environment/image");
+    EXPECT_FALSE(without.environment.enabled);
+    expect({.mesh = {{"visible_to_camera", false}}}, "is not read here", "/meshes/0/extras/etendue");
     expect({.camera = {{"f_stop", -2}}}, "must be a number > 0", "/cameras/0/extras/etendue/f_stop");
     expect({.camera = {{"focus_node", "Nobody"}}}, "no node 'Nobody'", "/cameras/0/extras/etendue/focus_node");
 }
@@ -125,6 +138,30 @@ TEST(Extras, OfCamerasYieldToRenderJson) {
     EXPECT_EQ(both.scene.cameras[0].focus_distance, 7.0f);
 }
 
+TEST(Extras, OfScenesYieldToThoseOfThingsAndToRenderJson) {
+    const Extras extras{.light = {{"color", {1, 0, 0}}},
+                        .scene = Json::parse(R"({"environment": {"color": [0, 1, 0], "scale": 2},
+                                                 "materials": {"paper": {"roughness": 0.25, "metallic": 0.5}},
+                                                 "lights": {"lamp": {"intensity": 3, "color": [0, 0, 1]}},
+                                                 "cameras": {"main": {"lens_radius": 0.25, "focus_distance": 3}}})")};
+    const LoadedScene alone = load_extras(extras);
+    EXPECT_TRUE(alone.problems.all().empty()) << listing(alone.problems);
+    EXPECT_TRUE(alone.scene.environment.enabled);
+    EXPECT_EQ(alone.scene.environment.color, Rgb(0, 1, 0));
+    EXPECT_EQ(alone.scene.environment.scale, 2.0f);
+    EXPECT_EQ(alone.scene.materials.at(0).roughness, 0.25f);
+    EXPECT_EQ(alone.scene.lights.at(0).intensity, 3.0f);
+    EXPECT_EQ(alone.scene.lights.at(0).color, Rgb(1, 0, 0)) << "the lamp's own";
+    EXPECT_EQ(alone.scene.cameras.at(0).lens_radius, 0.25f);
+    const LoadedScene both =
+        load_extras(extras, R"({"environment": {"scale": 5}, "materials": {"paper": {"roughness": 0.75}}})");
+    EXPECT_TRUE(both.problems.all().empty()) << listing(both.problems);
+    EXPECT_EQ(both.scene.environment.color, Rgb(0, 1, 0));
+    EXPECT_EQ(both.scene.environment.scale, 5.0f);
+    EXPECT_EQ(both.scene.materials.at(0).roughness, 0.75f);
+    EXPECT_EQ(both.scene.materials.at(0).metallic, 0.5f);
+}
+
 TEST(Extras, OfAnyKindCrashNothing) {
     GltfBuilder builder;
     builder.add_triangle();
@@ -135,7 +172,9 @@ TEST(Extras, OfAnyKindCrashNothing) {
         builder.json["meshes"][0]["extras"] = extras;
         const TempDir dir;
         builder.write(dir);
-        EXPECT_FALSE(inspect_scene(dir.path()).problems.has_errors()) << extras;
+        const ProblemList problems = inspect_scene(dir.path()).problems;
+        EXPECT_FALSE(problems.has_errors()) << extras;
+        EXPECT_TRUE(has_problem(problems, Severity::Warning, "is not read here", "/extras/etendue")) << extras;
     }
 }
 

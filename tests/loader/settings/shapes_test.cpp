@@ -3,6 +3,7 @@
 #include "loader/settings/render_json.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,41 @@ TEST(Shapes, StandAtNodesWithoutMeshesAndAtPlacesOfTheirOwn) {
     EXPECT_EQ(rod.to_world[3][1], 5.0f);
     EXPECT_EQ(scene.nodes.at(rod.node).name, "Empty");
     EXPECT_EQ(primitive_of(scene, 3).shape->half_size, Vec3f(0.25f, 1.5f, 0.25f));
+}
+
+// Both what takes the place of a mesh and what stands at a node without one.
+TEST(Shapes, MoveWithTheNodesThatPlaceThem) {
+    GltfBuilder builder;
+    builder.add_triangle()["material"] = 0;
+    builder.json["materials"] = {{{"name", "paper"}}};
+    builder.json["nodes"][0]["name"] = "Ball";
+    builder.json["nodes"].push_back({{"name", "Empty"}, {"translation", {0, 5, 0}}});
+    builder.json["nodes"][0]["children"] = {1};
+    const int times = builder.floats({0, 1}, 1);
+    const int places = builder.floats({0, 0, 0, 4, 0, 0}, 3);
+    builder.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", places}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("render.json",
+              R"({"shapes": {"Ball": {"type": "sphere"}, "Empty": {"type": "disk", "material": "paper"}}})");
+    LoadOptions options;
+    options.adjust = [](RenderSettings& settings) {
+        settings.time_code = 0.5;
+        settings.shutter = {0.0, 0.25};
+    };
+    const LoadedScene loaded = inspect_scene(dir.path(), options);
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    ASSERT_EQ(loaded.scene.instances.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(primitive_of(loaded.scene, i).shape->kind, i == 0 ? ShapeKind::Sphere : ShapeKind::Disk);
+        const TransformMotion& motion = loaded.scene.instances[i].motion;
+        ASSERT_EQ(motion.size(), 2u) << i;
+        const float y = i == 0 ? 0.0f : 5.0f;
+        EXPECT_EQ(transform_point(motion[0], Vec3f(0.0f)), Vec3f(2.0f, y, 0.0f)) << i;
+        EXPECT_EQ(transform_point(motion[1], Vec3f(0.0f)), Vec3f(3.0f, y, 0.0f)) << i;
+    }
 }
 
 TEST(Shapes, AreRefusedWithAReason) {

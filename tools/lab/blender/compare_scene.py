@@ -1,4 +1,5 @@
-"""Runs inside Blender: builds one scene, renders it with Cycles and with Etendue, and writes the mean of each object.
+"""Runs inside Blender: builds one scene, renders it with Cycles and with Etendue, and writes the mean of each object and how
+far pixels differ.
 
 blender -b --factory-startup --addons etendue --python compare_scene.py -- SCENE FOLDER WIDTHxHEIGHT SAMPLES"""
 
@@ -41,14 +42,22 @@ def main():
     bpy.context.view_layer.use_pass_object_index = False
     scenes.set_etendue(scene, int(samples))
     ours, _ = render(scene, folder / f"{name}-etendue.exr")
+    brightness = max(theirs.mean(), 1e-6)
+
+    def far(mask):
+        """The root mean square of the differences of these pixels, over the mean of Cycles' whole image."""
+        return float(numpy.sqrt(numpy.square(ours[mask] - theirs[mask]).mean()) / brightness)
+
     objects = {item.pass_index: item.name for item in bpy.data.objects if item.pass_index > 0}
     rows = {}
     for index, label in sorted(objects.items()) + [(0, "background")]:
         mask = numpy.rint(indices) == index
         if mask.sum() >= 16:
             rows[label] = {"pixels": int(mask.sum()), "cycles": theirs[mask].mean(axis=0).tolist(),
-                           "etendue": ours[mask].mean(axis=0).tolist()}
-    (folder / f"{name}.json").write_text(json.dumps({"blender": bpy.app.version_string, "objects": rows}))
+                           "etendue": ours[mask].mean(axis=0).tolist(), "pixel_difference": far(mask)}
+    everywhere = numpy.ones(indices.shape, bool)
+    (folder / f"{name}.json").write_text(json.dumps({"blender": bpy.app.version_string, "objects": rows,
+                                                     "pixel_difference": far(everywhere)}))
 
 
 if __name__ == "__main__":

@@ -98,6 +98,9 @@ class Materials:
         self.refuse_unknown(material)
         kinds = [key for key in ("diffuse", "conductor", "dielectric", "subsurface") if key in override]
         result = getattr(self, kinds[0])(name, override[kinds[0]]) if kinds else self.from_gltf(material)
+        surface = material.get("pbrMetallicRoughness", {})
+        if "dielectric" in kinds and (surface.get("baseColorFactor", [1] * 4)[:3] != [1] * 3 or "baseColorTexture" in surface):
+            raise NotComparable(f"the dielectric of '{name}' has a base colour")
         result["emission"] = self.emission(material, override)
         result["double_sided"] = material.get("doubleSided", False)
         return result
