@@ -40,7 +40,7 @@ struct TriangleHit {
 /// Counts what rays have made a structure do.
 struct RayWork {
     std::uint64_t nodes = 0;      ///< boxes of a tree, or cells of a grid, that rays went into
-    std::uint64_t triangles = 0;  ///< tests of a ray against a triangle
+    std::uint64_t triangles = 0;  ///< tests of a ray against a triangle, or against a shape without triangles
 
     void add(const RayWork& other) {
         nodes += other.nodes;

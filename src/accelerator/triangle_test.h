@@ -13,6 +13,10 @@ namespace etendue {
 /// triangles, and so the same number there but for its sign.
 ///
 /// Unlike theirs, the test is made in double precision, so that it is also what Embree's hits are compared with.
+///
+/// The test of Möller and Trumbore ("Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 2(1),
+/// 1997) solves for the distance and two barycentric coordinates by Cramer's rule. It is shorter, but leaks at edges:
+/// the two triangles that share one round differently how far the ray is from it.
 class TriangleTest {
   public:
     explicit TriangleTest(const Ray& ray);

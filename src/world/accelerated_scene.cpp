@@ -105,11 +105,12 @@ Hit AcceleratedScene::closest(const Ray& ray, RayEnds ends, RayWork& work) const
     Filter filter(*this, ray, ends, false);
     const Hit hit = make_hit(accelerator_->closest_hit(ray, has_filters_ ? &filter : nullptr, work), ray.time);
     if (shapes_.empty()) return hit;
-    const Hit on_shape = closest_shape(ray, hit.valid() ? hit.t : ray.t_max, filter);
+    const Hit on_shape = closest_shape(ray, hit.valid() ? hit.t : ray.t_max, filter, work);
     return on_shape.valid() ? on_shape : hit;
 }
 
-Hit AcceleratedScene::closest_shape(const Ray& ray, float t_max, Filter& filter) const {
+Hit AcceleratedScene::closest_shape(const Ray& ray, float t_max, Filter& filter, RayWork& work) const {
+    work.triangles += shapes_.size();
     Hit nearest;
     for (const auto& [shape, instance, geometry] : shapes_) {
         const ShapeCrossings crossings = shape.crossings(ray.origin, ray.direction);
@@ -134,7 +135,7 @@ Hit AcceleratedScene::closest_shape(const Ray& ray, float t_max, Filter& filter)
 std::uint8_t AcceleratedScene::occlusion(const Ray& ray, RayEnds ends, RayWork& work) const {
     Filter filter(*this, ray, ends, true);
     if (accelerator_->any_hit(ray, has_filters_ ? &filter : nullptr, work)) return kOccluded;
-    if (!shapes_.empty() && closest_shape(ray, ray.t_max, filter).valid()) return kOccluded;
+    if (!shapes_.empty() && closest_shape(ray, ray.t_max, filter, work).valid()) return kOccluded;
     return filter.has_passed_clear ? kPassesClear : kFree;
 }
 

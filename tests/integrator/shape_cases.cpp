@@ -139,6 +139,22 @@ std::vector<ClosedFormCase> shape_body_cases() {
     add(furnace, exact(ShapeKind::Sphere, Vec3f(2.0f)), walls);
     look(furnace, {0.0f, 0.0f, 1.5f}, {0.0f, 0.0f, -1.0f}, 0.3f);
     cases.push_back({"exact_furnace", furnace, 1.0, kExact, {.max_depth = 64}, light_too(kFindAllBounces)});
+
+    // White wax: light enters and leaves by diffuse transmission and is scattered within. The tolerance is that of
+    // `wax` in body_cases.cpp.
+    MaterialDesc wax;
+    wax.metallic = 0.0f;
+    wax.roughness = 0.5f;
+    wax.diffuse_transmission.factor = 1.0f;
+    wax.volume = {.closed = true,
+                  .attenuation_color = {0.2f, 0.3f, 0.5f},
+                  .attenuation_distance = 0.5f,
+                  .multiscatter_color = Rgb(1.0f),
+                  .scatter_anisotropy = 0.4f};
+    ClosedFormCase wax_ball = in_environment("exact_wax_ball", exact(ShapeKind::Sphere, Vec3f(0.8f)), wax, Mat4f(),
+                                             light_too(kFindAllBounces));
+    wax_ball.tolerance = 5e-3;
+    cases.push_back(wax_ball);
     return cases;
 }
 

@@ -5,6 +5,7 @@
 #include "support/t_test.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -72,6 +73,44 @@ TEST(ShapeLight, DirectionsHaveTheStatedDensity) {
         };
         const SamplerCheck check = check_sphere_sampler(
             sampler, [&, &light = light, &point = point](const Vec3f& w) { return density_of_hits(light, point, w); });
+        EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, all.size())) << i << ": " << check.chi2.str();
+    }
+}
+
+// Places where light paths start, as directions in which a point sees them: of closed shapes from within. All four
+// tests together fail with probability 0.01 if everything is right.
+TEST(ShapeLight, LightPathsStartWithTheStatedDensity) {
+    const Mat4f ball = scaled_and_moved(Vec3f(0.7f), {0.2f, 1.0f, -0.3f});
+    Mat4f stretched = scaled_and_moved({0.9f, 0.3f, 0.6f}, {0.2f, 1.0f, -0.3f});
+    stretched[1][0] = 0.4f;  // sheared, too
+    const Mat4f plate = scaled_and_moved({1.5f, 0.5f, 1.0f}, {0.0f, 0.2f, 1.0f});
+    const Mat4f tube = scaled_and_moved({0.5f, 0.9f, 0.5f}, {0.0f, 1.5f, 0.0f});
+    const std::vector<LitPoint> all{{shape_light(ShapeKind::Sphere, ball), {0.3f, 1.2f, -0.4f}},
+                                    {shape_light(ShapeKind::Sphere, stretched), {0.2f, 1.1f, -0.2f}},
+                                    {shape_light(ShapeKind::Disk, plate, true), {0.3f, 0.0f, 0.1f}},
+                                    {shape_light(ShapeKind::Cylinder, tube), {0.1f, 1.3f, 0.1f}}};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto& [light, point] = all[i];
+        const auto sampler = [&, &light = light, &point = point](Random& random) -> std::optional<Vec3f> {
+            const EmissionSample s =
+                light.sample_emission({random.next_2d(), random.next_2d(), random.next_2d()}, SceneSphere{});
+            EXPECT_EQ(s.pdf_position_area, light.pdf_area(s.position));
+            return normalize(s.position - point);
+        };
+        const auto density = [&, &light = light, &point = point](const Vec3f& w) {
+            const ShapeCrossings crossings = light.shape().crossings(point, w);
+            double sum = 0.0;
+            for (std::size_t c = 0; c < crossings.count; ++c) {
+                const double t = crossings.all[c].t;
+                if (!(t > 0.0)) continue;
+                const auto cosine = static_cast<double>(std::abs(dot(w, normalize(crossings.all[c].normal))));
+                const float per_area = light.pdf_area(point + w * static_cast<float>(t));
+                sum += static_cast<double>(per_area) * t * t / cosine;
+            }
+            return sum;
+        };
+        const SamplerCheck check = check_sphere_sampler(sampler, density, {.samples = 20'000, .tolerance = 2e-5});
+        EXPECT_NEAR(check.pdf_integral, 1.0, 2e-3) << i;
         EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, all.size())) << i << ": " << check.chi2.str();
     }
 }

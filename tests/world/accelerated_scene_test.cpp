@@ -1,14 +1,23 @@
 // The structures of accelerator/ against Embree: on scenes of the tree, on instances, and on what lets rays pass.
+//
+// ETENDUE_ACCELERATOR_SCENES=all takes all scenes of the tree in place of four, and ETENDUE_ACCELERATOR_RAYS says how
+// many rays each of them gets in place of 3,000; `tools/test thorough` sets both.
 #include "world/accelerated_scene.h"
 
+#include "core/frame.h"
 #include "core/position_error.h"
 #include "loader/loader.h"
 #include "world/test_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -41,27 +50,109 @@ std::vector<Ray> traced_rays(const World& world, std::size_t count) {
     return rays;
 }
 
-/// Fails unless `kind` meets what Embree meets.
+/// Returns whether Embree gives the answer of `scene` to a ray that lies beside `ray` by no more than rounding can
+/// tell, as it does where a ray passes an edge. It does not where the structure has lost a triangle, or lets rays
+/// through.
+bool is_answer_beside(const World& world, const AcceleratedScene& scene, const Ray& ray, bool occlusion) {
+    constexpr int kRings = 4, kOfEachRing = 16;
+    const Bounds& bounds = world.geometry().bounds();
+    const float extent = max_abs(max_components(abs_components(bounds.min), abs_components(bounds.max)));
+    const float error = kPositionError * std::max(extent, max_abs(ray.origin));
+    const Frame frame = Frame::from_normal(ray.direction);
+    const Hit ours = scene.closest(ray, RayEnds::InScene);
+    const std::uint8_t our_occlusion = scene.occlusion(ray, RayEnds::InScene);
+    for (int i = 0; i < kRings * kOfEachRing; ++i) {
+        const float angle = 2.0f * kPi * static_cast<float>(i) / kOfEachRing;
+        const float distance = error * static_cast<float>(1 + i / kOfEachRing) / kRings;
+        Ray beside = ray;
+        beside.origin += (frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle)) * distance;
+        if (occlusion) {
+            std::uint8_t answer = kFree;
+            world.geometry().occluded({&beside, 1}, {&answer, 1});
+            if (answer == our_occlusion) return true;
+            continue;
+        }
+        const Hit theirs = intersect(world, beside);
+        const bool is_same = theirs.instance == ours.instance && theirs.triangle == ours.triangle;
+        if (theirs.valid() == ours.valid() && (is_same || std::abs(theirs.t - ours.t) <= error)) return true;
+    }
+    return false;
+}
+
+/// Counts the rays of which no ray beside them explains that `scene` and Embree differ.
+std::size_t count_unexplained(const World& world, const AcceleratedScene& scene, std::span<const Ray> rays,
+                              bool occlusion) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (scene.compare_with_embree(rays.subspan(i, 1), occlusion).differ > 0 &&
+            !is_answer_beside(world, scene, rays[i], occlusion))
+            ++count;
+    return count;
+}
+
+/// Fails unless `kind` meets what Embree meets. In many rays, some pass an edge so closely that rounding decides.
 void expect_agreement(const World& world, std::span<const Ray> rays, AcceleratorKind kind) {
+    // The more rays, the flatter is the flattest angle at which one meets a surface, by which errors of single
+    // precision grow: its cosine goes with one over the root of their number.
+    const double grazing = std::sqrt(std::max(1.0, static_cast<double>(rays.size()) / 4000.0));
     const auto scene = world.geometry().accelerate(kind);
     for (const bool occlusion : {false, true}) {
+        SCOPED_TRACE(std::string(accelerator_name(kind)) + (occlusion ? ", occlusion" : ", nearest"));
         const HitAgreement agreement = scene->compare_with_embree(rays, occlusion);
-        EXPECT_EQ(agreement.differ, 0u) << accelerator_name(kind) << (occlusion ? ", occlusion" : ", nearest");
-        EXPECT_LE(agreement.ties, rays.size() / 50) << accelerator_name(kind);
-        EXPECT_LT(agreement.largest_error, 2.0 * static_cast<double>(kPositionError)) << accelerator_name(kind);
+        EXPECT_LE(agreement.differ, rays.size() / 20'000);
+        if (agreement.differ > 0) {
+            EXPECT_EQ(count_unexplained(world, *scene, rays, occlusion), 0u);
+        }
+        EXPECT_LE(agreement.ties, rays.size() / 50);
+        EXPECT_LT(agreement.largest_error, 2.0 * static_cast<double>(kPositionError) * grazing);
     }
 }
 
-class AcceleratedSceneOfTheTree : public testing::TestWithParam<const char*> {};
+const std::string kScenesOfTheTree = std::string(ETENDUE_SOURCE_DIR) + "/scenes/";
 
-TEST_P(AcceleratedSceneOfTheTree, IsMetWhereEmbreeMeetsIt) {
-    const World world = compile(load_scene(std::string(ETENDUE_SOURCE_DIR) + "/scenes/" + GetParam()).scene);
-    const std::vector<Ray> rays = traced_rays(world, 3000);
-    for (const AcceleratorKind kind : kStructures) expect_agreement(world, rays, kind);
+/// Returns the scenes that are asked for.
+std::vector<std::string> scenes_to_compare() {
+    const char* const asked = std::getenv("ETENDUE_ACCELERATOR_SCENES");
+    if (asked == nullptr || std::string_view(asked) != "all")
+        return {"cornell-box", "furnace", "caustic-prism", "diamond"};
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenesOfTheTree))
+        if (std::filesystem::exists(entry.path() / "scene.gltf")) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AcceleratedSceneOfTheTree,
-                         testing::Values("cornell-box", "furnace", "caustic-prism", "diamond"));
+/// Returns how many rays each scene gets.
+std::size_t rays_to_compare() {
+    const char* const asked = std::getenv("ETENDUE_ACCELERATOR_RAYS");
+    return asked == nullptr ? 3000 : static_cast<std::size_t>(std::clamp(std::atoi(asked), 1, 100'000'000));
+}
+
+/// Returns so many of `rays` that brute force makes no more than 10⁹ tests of a triangle, and none if they are few.
+std::span<const Ray> rays_for_brute_force(const World& world, std::span<const Ray> rays) {
+    if (rays.size() <= 3000) return {};
+    RayWork work;
+    const auto scene = world.geometry().accelerate(AcceleratorKind::BruteForce);
+    (void)scene->closest(Ray{}, RayEnds::InScene, work);
+    return rays.first(std::min<std::size_t>(rays.size(), 1'000'000'000 / std::max<std::uint64_t>(1, work.triangles)));
+}
+
+class AcceleratedSceneOfTheTree : public testing::TestWithParam<std::string> {};
+
+TEST_P(AcceleratedSceneOfTheTree, IsMetWhereEmbreeMeetsIt) {
+    const World world = compile(load_scene(kScenesOfTheTree + GetParam()).scene);
+    const std::vector<Ray> rays = traced_rays(world, rays_to_compare());
+    std::span<const Ray> of_brute_force;
+    try {
+        of_brute_force = rays_for_brute_force(world, rays);
+    } catch (const SceneError& error) {
+        GTEST_SKIP() << GetParam() << ": " << error.what();
+    }
+    for (const AcceleratorKind kind : kStructures) expect_agreement(world, rays, kind);
+    if (!of_brute_force.empty()) expect_agreement(world, of_brute_force, AcceleratorKind::BruteForce);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AcceleratedSceneOfTheTree, testing::ValuesIn(scenes_to_compare()));
 
 /// Makes instances, plain and mirrored, of surfaces of which some let rays pass.
 SceneDesc passing_scene() {

@@ -7,7 +7,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -119,6 +122,80 @@ TEST(Shapes, AreMetAlikeByAllQueries) {
     }
 }
 
+/// A disk or a cylinder of `kHalfSize` with so many sides, whose corners are on the exact one.
+PrimitiveDesc faceted(ShapeKind kind, int sides) {
+    PrimitiveDesc primitive;
+    const auto corner = [&](int side, float end) {
+        const float angle = 2.0f * kPi * static_cast<float>(side) / static_cast<float>(sides);
+        return kHalfSize * (kind == ShapeKind::Disk ? Vec3f(std::cos(angle), std::sin(angle), 0.0f)
+                                                    : Vec3f(std::cos(angle), end, std::sin(angle)));
+    };
+    const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+        const auto first = static_cast<std::uint32_t>(primitive.positions.size());
+        primitive.positions.insert(primitive.positions.end(), {a, b, c});
+        primitive.normals.insert(primitive.normals.end(), 3, normalize(cross(b - a, c - a)));
+        primitive.triangles.push_back({first, first + 1, first + 2});
+    };
+    for (int side = 0; side < sides; ++side) {
+        if (kind == ShapeKind::Disk) {
+            add(Vec3f(0.0f), corner(side, 0.0f), corner(side + 1, 0.0f));
+            continue;
+        }
+        for (const float end : {-1.0f, 1.0f})
+            add(kHalfSize * Vec3f(0.0f, end, 0.0f), corner(side, end), corner(side + 1, end));
+        add(corner(side, -1.0f), corner(side + 1, -1.0f), corner(side + 1, 1.0f));
+        add(corner(side, -1.0f), corner(side + 1, 1.0f), corner(side, 1.0f));
+    }
+    return primitive;
+}
+
+/// How far from its axis a disk or a cylinder in a World ends in this direction, in its radii there.
+double radius_towards(const World& world, ShapeKind kind, float angle, float height) {
+    const Vec2f to(std::cos(angle), std::sin(angle));
+    if (kind == ShapeKind::Cylinder) {
+        constexpr float kFar = 3.0f;
+        const Vec3f axis = kHalfSize * Vec3f(0.0f, height, 0.0f);
+        const Vec3f outwards = kHalfSize * Vec3f(to.x, 0.0f, to.y);
+        const Hit hit = intersect(world, {.origin = axis + outwards * kFar, .direction = normalize(-outwards)});
+        return static_cast<double>(hit.valid() ? kFar - hit.t / length(outwards) : 0.0f);
+    }
+    float inside = 0.0f;
+    float outside = 2.0f;
+    for (int i = 0; i < 24; ++i) {
+        const float middle = 0.5f * (inside + outside);
+        const Vec3f origin = kHalfSize * Vec3f(to.x * middle, to.y * middle, 2.0f);
+        (intersect(world, {.origin = origin, .direction = {0.0f, 0.0f, -1.0f}}).valid() ? inside : outside) = middle;
+    }
+    return static_cast<double>(inside);
+}
+
+// Between corners on a circle, n chords end before it by (pi / n)² / 3 radii on average, and by higher powers of that.
+TEST(Shapes, AreWhatFinerAndFinerFacetsComeTo) {
+    constexpr int kDirections = 100;
+    const auto world_of = [](const PrimitiveDesc& primitive) {
+        SceneDesc scene = empty_scene();
+        add_object(scene, primitive, add_material(scene, diffuse(Rgb(0.5f))));
+        return compile(std::move(scene));
+    };
+    for (const ShapeKind kind : {ShapeKind::Disk, ShapeKind::Cylinder}) {
+        const World exactly = world_of(exact(kind, kHalfSize));
+        for (const int sides : {16, 32, 64, 128}) {
+            SCOPED_TRACE(testing::Message() << shape_name(kind) << " of " << sides << " sides");
+            const World facets = world_of(faceted(kind, sides));
+            double error = 0.0;
+            for (int i = 0; i < kDirections; ++i) {
+                const auto angle = static_cast<float>(2.0 * static_cast<double>(kPi) * std::numbers::phi * i);
+                const float height = 1.6f * (static_cast<float>(i) + 0.5f) / kDirections - 0.8f;
+                const double of_exact = radius_towards(exactly, kind, angle, height);
+                ASSERT_NEAR(of_exact, 1.0, 2e-6);
+                error += (of_exact - radius_towards(facets, kind, angle, height)) / kDirections;
+            }
+            const double expected = std::pow(static_cast<double>(kPi) / sides, 2.0) / 3.0;
+            EXPECT_NEAR(error / expected, 1.0, 0.1);
+        }
+    }
+}
+
 // Whichever way a ray leaves a point, it meets no shape there; through a ball it meets the other side.
 TEST(Shapes, NeverMeetTheRaysThatLeaveThem) {
     for (const float away : {0.0f, 1000.0f})
@@ -180,19 +257,40 @@ TEST(Shapes, LetRaysPassEachOfTheirSidesByItself) {
 }
 
 TEST(Shapes, MoveWithTheirInstances) {
-    SceneDesc scene = empty_scene();
-    add_object(scene, exact(ShapeKind::Sphere, Vec3f(1.0f)), add_material(scene, diffuse(Rgb(0.5f))));
-    scene.instances[0].motion = {translation({-1.0f, 0.0f, 0.0f}), translation({1.0f, 0.0f, 0.0f})};
-    const World world = compile(scene);
-    for (const float time : {0.0f, 0.25f, 1.0f}) {
-        const float x = 2.0f * time - 1.0f;
-        const Ray ray{.origin = {x, 0.3f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}, .time = time};
-        const Hit hit = intersect(world, ray);
-        ASSERT_TRUE(hit.valid());
-        const SurfacePoint point = world.geometry().surface_point(hit);
-        const Vec3f expected(0.0f, 0.3f, std::sqrt(1.0f - 0.09f));
-        EXPECT_LT(length(point.geometric_normal - expected), 1e-5f) << time;
-        EXPECT_LT(length(point.position - expected - Vec3f(x, 0.0f, 0.0f)), 1e-5f) << time;
+    // What a ray along -z meets of each at x = 0.2 and y = 0.3, and the normal there.
+    const Vec3f on_sphere(0.2f, 0.3f, std::sqrt(1.0f - 0.13f));
+    const Vec3f on_tube(0.2f, 0.0f, std::sqrt(1.0f - 0.04f));
+    const Vec3f to_front(0.0f, 0.0f, -1.0f);
+    const struct {
+        ShapeKind kind;
+        float z;
+        Vec3f normal;
+    } cases[] = {{ShapeKind::Sphere, on_sphere.z, on_sphere},
+                 {ShapeKind::Disk, 0.0f, to_front},
+                 {ShapeKind::Rectangle, 0.0f, to_front},
+                 {ShapeKind::Cylinder, on_tube.z, on_tube}};
+    for (const auto& [kind, z, normal] : cases) {
+        SceneDesc scene = empty_scene();
+        add_object(scene, exact(kind, Vec3f(1.0f)), add_material(scene, diffuse(Rgb(0.5f))));
+        scene.instances[0].motion = {translation({-1.0f, 0.0f, 0.0f}), translation({1.0f, 0.0f, 0.0f})};
+        const World world = compile(scene);
+        for (const float time : {0.0f, 0.25f, 1.0f}) {
+            SCOPED_TRACE(testing::Message() << shape_name(kind) << " at " << time);
+            const float x = 2.0f * time - 1.0f;
+            const auto ray_at = [&](float from_middle, float y) {
+                return Ray{.origin = {x + from_middle, y, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}, .time = time};
+            };
+            const Hit hit = intersect(world, ray_at(0.2f, 0.3f));
+            ASSERT_TRUE(hit.valid());
+            const SurfacePoint point = world.geometry().surface_point(hit);
+            EXPECT_LT(length(point.geometric_normal - normal), 1e-5f);
+            EXPECT_LT(length(point.position - Vec3f(x + 0.2f, 0.3f, z)), 1e-5f);
+            // It ends one metre to both sides of where it is then.
+            for (const float side : {-1.0f, 1.0f}) {
+                EXPECT_TRUE(intersect(world, ray_at(0.98f * side, 0.0f)).valid());
+                EXPECT_FALSE(intersect(world, ray_at(1.02f * side, 0.0f)).valid());
+            }
+        }
     }
 }
 
@@ -241,6 +339,14 @@ TEST(Shapes, AreMetByOtherAccelerators) {
             EXPECT_EQ(agreement.differ, 0u);
             EXPECT_LT(agreement.largest_error, 1e-6);
         }
+        // Brute force tests the two triangles and every shape.
+        const auto brute = world.geometry().accelerate(AcceleratorKind::BruteForce);
+        RayWork work;
+        (void)brute->closest(rays[0], RayEnds::InScene, work);
+        EXPECT_EQ(work.triangles, 2 + (are_instanced ? 6u : 3u));
+        const Ray past{.origin = {0.0f, 0.0f, 90.0f}, .direction = {0.0f, 0.0f, 1.0f}};
+        EXPECT_EQ(brute->occlusion(past, RayEnds::InScene, work), kFree);
+        EXPECT_EQ(work.triangles, 2 * (2 + (are_instanced ? 6u : 3u)));
     }
 }
 
