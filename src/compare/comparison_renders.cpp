@@ -150,6 +150,46 @@ bool warm_up(std::span<const Variant> variants, const RendersRequest& request, c
     return true;
 }
 
+/// Renders for `seconds`; returns what samples cost, or nothing if it is interrupted.
+std::optional<SampleCost> measured_cost(TimedRender& render, double seconds) {
+    struct Mark {
+        std::uint32_t spp;
+        double time;
+    };
+    render.advance(1);
+    Mark late{render.spp(), render.time()};
+    SampleCost cost{.first = late.time, .next = late.time};
+    // By the later half, as radii of merging shrink, and with them the cost.
+    while (render.advance(kMostSamples))
+        if (render.time() < 0.5 * seconds) late = {render.spp(), render.time()};
+    if (render.spp() > late.spp) cost.next = (render.time() - late.time) / (render.spp() - late.spp);
+    return interrupt_requested() ? std::nullopt : std::optional(cost);
+}
+
+/// Finds by short renders how many samples of each variant take the time of the budget; returns nothing if it is
+/// interrupted.
+std::optional<std::vector<RenderBudget>> calibrate(std::span<const Variant> variants, const RendersRequest& request,
+                                                   const ThreadPool& threads) {
+    constexpr std::uint32_t kRenders = 3;
+    constexpr double kShare = 0.2;
+    RenderBudget part = request.budget;
+    *part.seconds *= kShare;
+    std::vector<std::vector<SampleCost>> costs(variants.size());
+    for (std::uint32_t i = 0; i < kRenders; ++i)
+        for (std::size_t v = 0; v < variants.size(); ++v) {
+            TimedRender render(variants[v], request.first_seed + i, threads, part,
+                               fmt::format("{} calibration {}/{}", variants[v].name, i + 1, kRenders), request.quiet,
+                               request.watcher);
+            const std::optional<SampleCost> cost = measured_cost(render, *part.seconds);
+            if (!cost) return std::nullopt;
+            costs[v].push_back(*cost);
+        }
+    std::vector<RenderBudget> budgets;
+    for (const std::vector<SampleCost>& of_variant : costs)
+        budgets.push_back({.spp = calibrated_samples(*request.budget.seconds, of_variant)});
+    return budgets;
+}
+
 /// Renders and keeps the images on the way; returns false if it is interrupted.
 bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
     const auto keep = [&] {
@@ -169,6 +209,15 @@ std::uint32_t fit_samples(std::uint32_t wanted, double seconds, double sample_se
     return fitting < wanted ? static_cast<std::uint32_t>(fitting) : wanted;
 }
 
+std::uint32_t calibrated_samples(double seconds, std::span<const SampleCost> costs) {
+    constexpr double kLeastSeconds = 1e-9;
+    std::vector<double> samples;
+    for (const SampleCost& cost : costs)
+        samples.push_back(1.0 + std::max(0.0, seconds - cost.first) / std::max(cost.next, kLeastSeconds));
+    std::ranges::sort(samples);
+    return static_cast<std::uint32_t>(std::lround(std::min(samples.at(samples.size() / 2), double(kMostSamples))));
+}
+
 std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant, std::size_t variants) {
     return first + static_cast<std::uint32_t>(render * variants + variant);
 }
@@ -176,9 +225,14 @@ std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t v
 std::vector<VariantRenders> render_variants(std::span<const Variant> variants, const RendersRequest& request,
                                             ImageStore& store, const ThreadPool& threads) {
     std::vector<VariantRenders> renders(variants.size());
-    // The first render of a variant spends the time, and the others take as many samples.
+    // All renders of a variant take as many samples; one by itself may spend the time exactly.
     std::vector<RenderBudget> budgets(variants.size(), request.budget);
     if (request.budget.seconds && !warm_up(variants, request, threads)) return renders;
+    if (request.budget.seconds && request.seeds > 1) {
+        std::optional<std::vector<RenderBudget>> calibrated = calibrate(variants, request, threads);
+        if (!calibrated) return renders;
+        budgets = std::move(*calibrated);
+    }
     for (int seed = 0; seed < request.seeds; ++seed)
         for (std::size_t v = 0; v < variants.size(); ++v) {
             SeedRender result{.seed =

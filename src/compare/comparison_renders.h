@@ -57,11 +57,20 @@ struct RendersRequest {
 /// Returns how many of the `wanted` samples, each of which takes `sample_seconds`, come nearest to taking `seconds`.
 [[nodiscard]] std::uint32_t fit_samples(std::uint32_t wanted, double seconds, double sample_seconds);
 
+/// Holds what the samples of a render take, of every pixel.
+struct SampleCost {
+    double first = 0.0;  ///< seconds of the first sample, with what is made once
+    double next = 0.0;   ///< seconds of each later one
+};
+
+/// Returns how many samples take `seconds`, at least one: the median of what `costs` say, those of several renders.
+[[nodiscard]] std::uint32_t calibrated_samples(double seconds, std::span<const SampleCost> costs);
+
 /// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what
-/// else the machine does falls on all alike. All renders of a variant take as many samples; if times are equal, as many
-/// as its first one takes in that time, before which each variant renders one sample. Images are kept after 1, 2, 3, 4,
-/// 6, 8, ... samples, a factor of sqrt(2) apart. Once an interrupt is requested, the renders are returned that all
-/// variants have.
+/// else the machine does falls on all alike. All renders of a variant take as many samples. If times are equal, that
+/// number comes from three short renders of each variant, or, for one seed, from the time that the render has spent;
+/// before, each variant renders one sample. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2)
+/// apart. Once an interrupt is requested, the renders are returned that all variants have.
 [[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
                                                           const RendersRequest& request, ImageStore& store,
                                                           const ThreadPool& threads);
