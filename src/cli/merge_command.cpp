@@ -133,9 +133,10 @@ void write_merged_image(const MergeArguments& arguments, const OutputPaths& path
     require_parts_kept(arguments, layers);
     for (const std::filesystem::path& layer : layers) require_no_image_at(layer, {arguments.output, {}});
     image.statistics.libraries = library_versions();
-    const std::vector<std::string> earlier = write_image_files(paths, image, ColorConfig::from_environment(), depth);
+    const ColorConfig colors = ColorConfig::from_environment();
+    const std::vector<std::string> earlier = write_image_files(paths, image, colors, depth);
     if (arguments.quiet) return;
-    note_brightest(paths, image.frame, depth);
+    note_brightest(paths, image.frame, colors, depth);
     note_exposure(paths, image.statistics);
     note_earlier_files(earlier);
 }

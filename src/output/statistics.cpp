@@ -66,6 +66,10 @@ std::string to_json(const RenderStatistics& s) {
     json["settings_hash"] = s.settings_hash;
     json["inputs"] = s.inputs;
     json["layer_files"] = s.layer_files;
+    json["strategies_image"] = s.strategies_image ? Json{{"file", s.strategies_image->file},
+                                                         {"longest", s.strategies_image->longest},
+                                                         {"weighted", s.strategies_image->weighted}}
+                                                  : Json();
     json["file_sizes"] = s.file_sizes;
     json["light_units"] = s.light_units;
     json["exposure"] = {{"stops", s.exposure ? Json(*s.exposure) : Json()},

@@ -59,6 +59,15 @@ struct InputFile {
     std::string content;               ///< hash, in hexadecimal digits
 };
 
+/// The image of all strategies (--strategies-image) that was written with an image.
+struct StrategiesShown {
+    std::string file;      ///< its name
+    int longest = 0;       ///< edges of the longest paths in it
+    bool weighted = true;  ///< by multiple importance sampling
+
+    bool operator==(const StrategiesShown&) const = default;
+};
+
 struct RenderStatistics {
     std::string scene;
     std::string integrator;
@@ -72,7 +81,8 @@ struct RenderStatistics {
     std::string requested_settings;  ///< settings that are not the default and decide the contents of files, unresolved
     std::string command;             ///< the command line; empty if there was none
     std::vector<InputFile> inputs;
-    std::vector<std::string> layer_files;             ///< names of what lies beside the image and belongs to it
+    std::vector<std::string> layer_files;  ///< names of what lies beside the image and belongs to it
+    std::optional<StrategiesShown> strategies_image;
     std::map<std::string, std::uint64_t> file_sizes;  ///< bytes of the EXRs and the PNG, by their names
     std::string light_units;  ///< units of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
     std::optional<float> exposure;  ///< stops, of the PNG

@@ -4,6 +4,7 @@
 #include "core/write_file.h"
 #include "image/finite.h"
 #include "output/auto_exposure.h"
+#include "output/output_space.h"
 #include "output/preview_png.h"
 #include "picture/exr_files.h"
 #include "process/peak_memory.h"
@@ -208,11 +209,17 @@ void note_earlier_files(const std::vector<std::string>& names) {
         log_warning("note: {} is of the image that was replaced, and still there", name);
 }
 
-void note_brightest(const OutputPaths& paths, const OutputFrame& frame, PixelDepth depth) {
+void note_brightest(const OutputPaths& paths, const OutputFrame& frame, const ColorConfig& colors, PixelDepth depth) {
     // The standard of the container allows no other values.
     if (depth != PixelDepth::Half || frame.aces_container) return;
-    const std::vector<float>& values = frame.pixels.pixels;
-    const auto channels = static_cast<std::size_t>(frame.pixels.channels);
+    ImageF converted;
+    if (is_to_be_converted(frame)) {
+        converted = frame.pixels;
+        convert_space(converted, frame.working_space, frame.output_space, colors);
+    }
+    const ImageF& image = converted.pixels.empty() ? frame.pixels : converted;
+    const std::vector<float>& values = image.pixels;
+    const auto channels = static_cast<std::size_t>(image.channels);
     std::size_t count = 0;
     for (std::size_t i = 0; i < values.size(); i += channels)
         if (std::max({values[i], values[i + 1], values[i + 2]}) > kLargestHalf) ++count;

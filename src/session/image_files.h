@@ -44,7 +44,7 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
 void note_exposure(const OutputPaths& paths, const RenderStatistics& statistics);
 
 /// Says how many pixels are too bright for the EXR of a `depth` of 16 bits, which then holds the largest value it can.
-void note_brightest(const OutputPaths& paths, const OutputFrame& frame, PixelDepth depth);
+void note_brightest(const OutputPaths& paths, const OutputFrame& frame, const ColorConfig& colors, PixelDepth depth);
 
 /// A note for each of these names.
 void note_earlier_files(const std::vector<std::string>& names);

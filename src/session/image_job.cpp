@@ -84,7 +84,8 @@ ImageResult run_job(const ImageJob& job, SceneRenderRequest request, const Threa
     request.overrides = overrides_of(job, std::move(request.overrides));
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const OutputPaths paths = OutputPaths::beside(job.output, request.overrides.png);
-    if (!request.force && !is_partial(job.output) && has_strategies_image(request.strategies, paths) &&
+    if (!request.force && !is_partial(job.output) &&
+        has_strategies_image(request.strategies, prepared.scene.settings.integrator.lengths, paths) &&
         is_up_to_date(paths, job.scene, prepared.scene, request.overrides.depth)) {
         // A checkpoint older than the image is of the render that made the image; a newer one is of a longer render.
         if (const CheckpointFiles checkpoints(job.output); !checkpoints.are_newer_than(paths.json))

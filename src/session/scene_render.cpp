@@ -392,13 +392,15 @@ class SceneRender {
         for (RenderWatcher* const watcher : request_.watchers) watcher->show(description_);
         const PixelDepth depth = request_.overrides.depth;
         const std::vector<std::string> earlier = write_image_files(paths_, description_, colors_, depth, [&] {
-            if (!request_.strategies.output.empty() && complete)
-                write_strategies_image(request_.strategies, world, settings_.integrator,
+            if (request_.strategies.output.empty() || !complete) return;
+            if (write_strategies_image(request_.strategies, world, settings_.integrator,
                                        options_of_strategies(rendered), description_.frame, colors_, depth, threads_,
-                                       title(), request_.quiet);
+                                       title(), request_.quiet))
+                description_.statistics.strategies_image =
+                    strategies_shown(request_.strategies, settings_.integrator.lengths);
         });
         if (request_.quiet) return;
-        note_brightest(paths_, description_.frame, depth);
+        note_brightest(paths_, description_.frame, colors_, depth);
         note_exposure(paths_, description_.statistics);
         note_earlier_files(earlier);
     }

@@ -10,6 +10,7 @@
 #include "output/output_space.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
+#include "session/up_to_date.h"
 #include "session/usage_error.h"
 
 #include <algorithm>
@@ -82,8 +83,13 @@ std::string strategy_label(const Strategy& strategy) {
     return strategy == kMerges ? "merges" : fmt::format("({},{})", strategy.s, strategy.t);
 }
 
-bool has_strategies_image(const StrategiesRequest& request, const OutputPaths& image) {
+StrategiesShown strategies_shown(const StrategiesRequest& request, const PathLengths& lengths) {
+    return {request.output.filename().string(), longest_shown(request, lengths), request.weighted};
+}
+
+bool has_strategies_image(const StrategiesRequest& request, const PathLengths& lengths, const OutputPaths& image) {
     if (request.output.empty()) return true;
+    if (listed_strategies_image(image) != strategies_shown(request, lengths)) return false;
     std::error_code pyramid_is_missing;
     std::error_code image_is_missing;
     const auto of_pyramid = std::filesystem::last_write_time(request.output, pyramid_is_missing);
@@ -104,7 +110,7 @@ void check_strategies_request(const StrategiesRequest& request, std::span<const 
     require_memory(count, options.window, depth);
 }
 
-void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorSettings& integrator,
+bool write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorSettings& integrator,
                             const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
                             PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet) {
     IntegratorSettings one = integrator;
@@ -124,7 +130,7 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
     if (images.size() < wanted.size()) {
         log_warning("note: interrupted before all strategies were rendered: {} is not written",
                     request.output.string());
-        return;
+        return false;
     }
     if (is_to_be_converted(frame)) {
         // In place, since there is no room for another of each.
@@ -139,6 +145,7 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
     png.attributes = display_attributes(view);
     write_image(std::filesystem::path(request.output).replace_extension(".png"),
                 make_contact_sheet(make_rows(images, view, colors)), png);
+    return true;
 }
 
 }  // namespace etendue

@@ -6,6 +6,7 @@
 #include "image/write.h"
 #include "integrator/integrator.h"
 #include "output/output_frame.h"
+#include "output/statistics.h"
 #include "picture/output_paths.h"
 #include "render/render.h"
 #include "render/strategy_pyramid.h"
@@ -26,8 +27,13 @@ struct StrategiesRequest {
     bool weighted = true;
 };
 
-/// Returns whether nothing is asked for, or the pyramid was written after the image whose files are `image`.
-[[nodiscard]] bool has_strategies_image(const StrategiesRequest& request, const OutputPaths& image);
+/// Returns what the pyramid of a render with paths of these `lengths` shows.
+[[nodiscard]] StrategiesShown strategies_shown(const StrategiesRequest& request, const PathLengths& lengths);
+
+/// Returns whether nothing is asked for, or what is asked for was written with and after the image whose files are
+/// `image`, of paths of these `lengths`.
+[[nodiscard]] bool has_strategies_image(const StrategiesRequest& request, const PathLengths& lengths,
+                                        const OutputPaths& image);
 
 /// Before anything is rendered: throws UsageError if the pyramid would be written over the image, whose files are
 /// `image`, or would show nothing, and std::runtime_error if it needs more memory than the machine has.
@@ -36,10 +42,11 @@ void check_strategies_request(const StrategiesRequest& request, std::span<const 
 
 /// Renders every strategy of the integrator of these settings, and its merges, if it has any, and writes an EXR with a
 /// part for each, named "s0t2" and so on, and a PNG with all of them labelled (s,t), a row for each length of path.
-/// `frame` says what is to be said of the image. Nothing is written if it is interrupted.
-void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorSettings& integrator,
-                            const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
-                            PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet);
+/// `frame` says what is to be said of the image. Returns false, and writes nothing, if it is interrupted.
+[[nodiscard]] bool write_strategies_image(const StrategiesRequest& request, const World& world,
+                                          const IntegratorSettings& integrator, const RenderOptions& options,
+                                          OutputFrame frame, const ColorConfig& colors, PixelDepth depth,
+                                          const ThreadPool& threads, const std::string& title, bool quiet);
 
 /// "(s,t)", or "merges"
 [[nodiscard]] std::string strategy_label(const Strategy& strategy);

@@ -202,6 +202,17 @@ std::vector<std::string> listed_layer_files(const OutputPaths& output) {
     return layer_files_of(read_statistics(output.json));
 }
 
+std::optional<StrategiesShown> listed_strategies_image(const OutputPaths& output) {
+    const nlohmann::json statistics = read_statistics(output.json);
+    const auto shown = value_of<nlohmann::json>(statistics, "strategies_image", &nlohmann::json::is_object);
+    if (!shown) return std::nullopt;
+    const auto file = value_of<std::string>(*shown, "file", &nlohmann::json::is_string);
+    const auto longest = value_of<int>(*shown, "longest", &nlohmann::json::is_number_integer);
+    const auto weighted = value_of<bool>(*shown, "weighted", &nlohmann::json::is_boolean);
+    if (!file || !longest || !weighted) return std::nullopt;
+    return StrategiesShown{*file, *longest, *weighted};
+}
+
 std::optional<Staleness> why_outdated(const OutputPaths& output, const fs::path& scene) {
     const auto files = inputs_of(read_statistics(output.json));
     if (!files) return Staleness{.reason = "its inputs are not known"};

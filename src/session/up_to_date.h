@@ -2,6 +2,7 @@
 #pragma once
 
 #include "output/exr_driver.h"
+#include "output/statistics.h"
 #include "picture/output_paths.h"
 #include "scene/scene_desc.h"
 
@@ -30,6 +31,10 @@ struct Staleness {
 /// Names of the layers and depths in files of their own that the statistics of `output` list, which lie beside the
 /// image; none if there are no statistics.
 [[nodiscard]] std::vector<std::string> listed_layer_files(const OutputPaths& output);
+
+/// Returns the image of all strategies that the statistics of `output` tell of, which was written with it; none if
+/// there is none, or there are no statistics.
+[[nodiscard]] std::optional<StrategiesShown> listed_strategies_image(const OutputPaths& output);
 
 /// Returns, without loading a scene, why the completed render `output` of the scene directory or file `scene` is
 /// outdated by the inputs that the files of `output` list: one has another content now or is missing, or the inputs are

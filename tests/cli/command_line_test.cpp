@@ -391,6 +391,16 @@ TEST_F(CommandLine, StrategiesAreShownOneByOne) {
     const std::string bytes = read_file(work_ / "few.exr");
     for (const char* part : {"s0t2", "s0t3", "s1t2", "s2t1"}) EXPECT_NE(bytes.find(part), std::string::npos) << part;
     EXPECT_EQ(bytes.find("s0t4"), std::string::npos);
+    // With and without weights they are two images of one name.
+    const std::vector<std::string> weighted{
+        "render", box,         "--integrator",       "bdpt",    "--spp",   "1", "--max-depth", "2",
+        "-o",     "image.exr", "--strategies-image", "few.exr", "--resume"};
+    EXPECT_EQ(run(weighted).exit_code, 0);
+    const std::string again = read_file(work_ / "few.exr");
+    EXPECT_NE(again, bytes);
+    EXPECT_EQ(json::parse(read_file(work_ / "image.json"))["strategies_image"],
+              (json{{"file", "few.exr"}, {"longest", 2}, {"weighted", true}}));
+    EXPECT_NE(run(weighted).err.find("image.exr: up to date"), std::string::npos);
     EXPECT_EQ(run({"render", box, "--integrator", "bdpt", "--strategies-image", "all.png"}).exit_code, 2);
     EXPECT_EQ(run({"render", box, "--strategies-depth", "3"}).exit_code, 2);
     const ProgramResult path = run({"render", box, "--integrator", "path", "--strategies-image", "path.exr"});
