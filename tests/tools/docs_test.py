@@ -1,4 +1,5 @@
-"""Tests that the pages of the repository lead somewhere: their links, their anchors and the files that they name."""
+"""Tests that the pages of the repository lead somewhere: their links, their anchors and the files that they name; and that
+they keep to their length, and the gallery to its size."""
 
 import os
 import re
@@ -13,6 +14,12 @@ NOT_OURS = {"build", "out", ".git"}
 # Pages whose backticks name files of the tree, and where their paths may begin.
 PAGES_OF_PATHS = ("CONTRIBUTING.md", "SECURITY.md", "src/README.md")
 STARTS_OF_PATHS = ("", "src")
+# How long pages may be, and what the pictures of the gallery are.
+MOST_LINES_OF_README = 150
+MOST_WORDS_OF_DOCS = 40_000
+PICTURES_OF_GALLERY = range(8, 13)
+PICTURE_SIZE = (1920, 1080)
+MOST_BYTES_OF_GALLERY = 12_000_000
 
 FENCE = re.compile(r"^(```|~~~).*?^\1[^\n]*$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"(?<!`)(`+)(?!`)((?:(?!\n\n).)+?)(?<!`)\1(?!`)", re.DOTALL)
@@ -114,6 +121,34 @@ def missing_paths(root, names):
     return missing
 
 
+def count_words(text):
+    """Words are what lies between white space and holds a letter, in code and tables as elsewhere."""
+    return sum(any(character.isalpha() for character in token) for token in text.split())
+
+
+def words_of_docs(root):
+    return sum(count_words(page.read_text(encoding="utf-8")) for page in pages(root / "docs"))
+
+
+def jpeg_size(data):
+    """Width and height by the header of a JPEG's frame; none if there is no such header."""
+    position = 2
+    while data[:2] == b"\xff\xd8" and data[position:position + 1] == b"\xff" and position + 9 <= len(data):
+        marker = data[position + 1]
+        # C4, C8 and CC among the frames' markers are tables, not frames.
+        if 0xc0 <= marker <= 0xcf and marker not in (0xc4, 0xc8, 0xcc):
+            return (int.from_bytes(data[position + 7:position + 9], "big"),
+                    int.from_bytes(data[position + 5:position + 7], "big"))
+        position += 2 + int.from_bytes(data[position + 2:position + 4], "big")
+    return None
+
+
+def pictures_of_gallery(root):
+    """The JPEGs that docs/gallery.md shows."""
+    text = (root / "docs/gallery.md").read_text(encoding="utf-8")
+    return [root / "docs" / name for name in re.findall(r"!\[[^\]]*\]\(([^)]+\.jpg)\)", text)]
+
+
 class Checker(unittest.TestCase):
     """That it finds what it is for, in a tree of its own."""
 
@@ -152,6 +187,21 @@ class Checker(unittest.TestCase):
                          ["page.md:1: core/ray.h is not there", "page.md:2: tools/x is not there"])
 
 
+    def test_words(self):
+        self.assertEqual(count_words("| a | 3.5 | x2 |\n```\nrun --all\n```\n- naïve"), 5)
+        self.write("docs/a.md", "one 2 three\n")
+        self.write("docs/b/c.md", "four\n")
+        self.write("README.md", "not counted\n")
+        self.assertEqual(words_of_docs(self.root), 3)
+
+    def test_sizes_of_pictures(self):
+        # A comment of 3 bytes, a table (C4), and a frame that is 0x102 pixels high and 0x304 wide.
+        picture = (b"\xff\xd8\xff\xfe\0\5abc" b"\xff\xc4\0\3x" b"\xff\xc2\0\x0b\x08\x01\x02\x03\x04\1\1\x11\0")
+        self.assertEqual(jpeg_size(picture), (0x304, 0x102))
+        self.assertIsNone(jpeg_size(picture[:14]))
+        self.assertIsNone(jpeg_size(b"\x89PNG" + picture))
+
+
 class Repository(unittest.TestCase):
     maxDiff = None
 
@@ -161,6 +211,21 @@ class Repository(unittest.TestCase):
 
     def test_every_path_that_is_named_exists(self):
         self.assertEqual(missing_paths(ROOT, PAGES_OF_PATHS), [])
+
+    def test_the_front_page_is_short(self):
+        lines = (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+        self.assertLessEqual(len(lines), MOST_LINES_OF_README)
+
+    def test_the_docs_have_no_more_words_than_somebody_reads(self):
+        self.assertLessEqual(words_of_docs(ROOT), MOST_WORDS_OF_DOCS)
+
+    def test_the_gallery_is_large_and_its_files_are_small(self):
+        pictures = pictures_of_gallery(ROOT)
+        self.assertIn(len(pictures), PICTURES_OF_GALLERY)
+        for picture in pictures:
+            self.assertEqual(jpeg_size(picture.read_bytes()), PICTURE_SIZE, picture.name)
+        files = [file for file in (ROOT / "docs/gallery").rglob("*") if file.is_file()]
+        self.assertLess(sum(file.stat().st_size for file in files), MOST_BYTES_OF_GALLERY)
 
 
 if __name__ == "__main__":
