@@ -33,7 +33,7 @@ endif()
 # -Og takes a third less time to compile than -O1, and no more than -O0, after which g++ 12 forgets what it was told of
 # headers; what it then says of uninitialised variables is often wrong.
 if(ETENDUE_SANITIZERS OR NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
-  set(ETENDUE_QUICK_OPTIONS -Og -Wno-maybe-uninitialized)
+  set(ETENDUE_QUICK_OPTIONS -Og $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 if(ETENDUE_QUICK_BUILD AND NOT ETENDUE_SANITIZERS)
   list(APPEND ETENDUE_QUICK_OPTIONS -D_GLIBCXX_ASSERTIONS)

@@ -59,6 +59,7 @@ RenderStatistics make_statistics() {
     s.first_dropped = {{1, 2, 3}, {4, 5, 6}};
     s.inputs = {{"textures/sky.exr", 12, 34, "0123"}};
     s.layer_files = {"box.depth.exr"};
+    s.strategies_image = {"pyramid.exr", 5, false};
     s.clamp_indirect = 0.5f;
     s.removed_share = 0.25;
     s.robust_buckets = 5;
@@ -95,7 +96,9 @@ TEST(StatisticsJson, HasEveryField) {
         "settings": {"/spp": 8, "/color/exposure": 0.1}, "requested_settings": {"/spp": 8},
         "command": "etendue render box",
         "inputs": [{"path": "textures/sky.exr", "size": 12, "modified": 34, "content": "0123"}],
-        "layer_files": ["box.depth.exr"], "file_sizes": {"box.exr": 2800}, "light_units": "radiometric",
+        "layer_files": ["box.depth.exr"],
+        "strategies_image": {"file": "pyramid.exr", "longest": 5, "weighted": false},
+        "file_sizes": {"box.exr": 2800}, "light_units": "radiometric",
         "exposure": {"stops": 1.5, "chosen": "it was dark", "clipped_share": 0.25}, "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "estimated_relative_error": 0.125,
         "spp": {"requested": 16, "done": 8}, "adaptive": {"least": 8, "mean": 12.5, "most": 16},
