@@ -16,7 +16,7 @@ namespace etendue {
 ///
 /// The test of Möller and Trumbore ("Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 2(1),
 /// 1997) solves for the distance and two barycentric coordinates by Cramer's rule. It is shorter, but leaks at edges:
-/// the two triangles that share one round differently how far the ray is from it.
+/// two triangles that share an edge round the ray's distance to it differently.
 class TriangleTest {
   public:
     explicit TriangleTest(const Ray& ray);

@@ -71,7 +71,7 @@ class ChildAttempt {
     /// Lets it write a preview if it is rendering; returns whether it is.
     bool show_preview();
 
-    /// Stops its process until `go_on_after_stop`.
+    /// Suspends its process until `go_on_after_stop` is called.
     void stop();
     void go_on_after_stop();
 

@@ -12,8 +12,8 @@
 
 namespace etendue {
 
-/// Returns the age from which report.json and index.html are written anew: a second, and as much more as they have
-/// `units`, and many times what writing them `took`, but no more than a minute.
+/// Returns the age at which report.json and index.html are written anew: one second plus 10 ms for each of `units`,
+/// or 20 times as long as writing them last `took` if that is longer, but at most a minute.
 [[nodiscard]] std::chrono::steady_clock::duration oldest_reports(std::chrono::steady_clock::duration took,
                                                                  std::size_t units);
 

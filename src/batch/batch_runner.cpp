@@ -122,7 +122,7 @@ void BatchRunner::run() {
 void BatchRunner::make_images(std::deque<std::size_t> waiting) {
     std::vector<std::size_t> held;
     Clock::time_point looked_at_held = Clock::now();
-    // They have process groups of their own, which Ctrl-Z in a terminal does not reach.
+    // The renders have process groups of their own, so that Ctrl-Z in a terminal does not reach them.
     std::optional<StopRequests> stops;
     if (!options_.in_process) stops.emplace();
     while (true) {

@@ -63,11 +63,11 @@ class BatchRunner {
     void make_images(std::deque<std::size_t> waiting);
     /// Begins waiting images for as long as there is room for them; `held` gets those that other processes have.
     void begin_images(std::deque<std::size_t>& waiting, std::vector<std::size_t>& held);
-    /// Notes that an image is over or elsewhere; `held` gets the latter.
+    /// Notes that an image is done, or that another process renders it; in that case `held` gets it.
     void leave(std::size_t index, Beginning how, std::vector<std::size_t>& held);
     /// Returns whether the memory that is left holds one more image; if not, says so once.
     bool has_room_for(std::size_t index);
-    /// Returns how many threads the image gets that is the first of `waiting` that may begin.
+    /// Returns how many threads the next image gets: the first of `waiting` that may begin.
     [[nodiscard]] int threads_for(const std::deque<std::size_t>& waiting) const;
     [[nodiscard]] std::vector<JobShare> shares() const;
     [[nodiscard]] std::uint64_t memory_left_now() const;
@@ -99,7 +99,7 @@ class BatchRunner {
     void fail(std::size_t index, const std::string& error);
     void show_work();
     void pass_on_preview_request();
-    /// Stops the processes that render, then this one, until it is told to go on.
+    /// Suspends the processes that render, then this one, until it gets SIGCONT; then all go on.
     void stop_with_work();
 
     void wait_for_others(const std::vector<std::size_t>& held);

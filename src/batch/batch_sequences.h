@@ -1,4 +1,4 @@
-// Which frames of a batch wait for the first one of their sequence, whose exposure they take.
+// Says which frames of a batch wait for the first frame of their sequence, whose exposure they take.
 #pragma once
 
 #include "batch/batch_plan.h"
@@ -10,8 +10,8 @@
 
 namespace etendue {
 
-/// Holds back the frames of sequences without an exposure that is asked for, each until the first frame of its sequence
-/// that is to be made has ended, however that is.
+/// Holds back frames of sequences for which the user gives no exposure. Each waits until the first frame of its
+/// sequence that is still to be rendered is done, has failed or is left to another process.
 class FirstFrames {
   public:
     /// Holds back nothing.
@@ -25,7 +25,7 @@ class FirstFrames {
     void end(std::size_t index);
 
   private:
-    std::vector<std::optional<std::size_t>> waits_for_{};  ///< of each image
+    std::vector<std::optional<std::size_t>> waits_for_{};  ///< the index of the frame that each image waits for
     std::vector<bool> has_ended_{};
 };
 

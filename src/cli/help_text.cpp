@@ -33,7 +33,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
     return lines;
 }
 
-/// Breaks `name` into lines of at most `width` characters, after its commas and spaces.
+/// Returns `name` broken into lines of at most `width` characters, after commas and spaces.
 std::string broken_name(const std::string& name, std::size_t width) {
     constexpr std::size_t kIndent = 10;
     std::string result;

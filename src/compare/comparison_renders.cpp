@@ -159,7 +159,7 @@ std::optional<SampleCost> measured_cost(TimedRender& render, double seconds) {
     render.advance(1);
     Mark late{render.spp(), render.time()};
     SampleCost cost{.first = late.time, .next = late.time};
-    // By the later half, as radii of merging shrink, and with them the cost.
+    // The later half tells the cost, since merge radii shrink, and the cost with them.
     while (render.advance(kMostSamples))
         if (render.time() < 0.5 * seconds) late = {render.spp(), render.time()};
     if (render.spp() > late.spp) cost.next = (render.time() - late.time) / (render.spp() - late.spp);
@@ -225,7 +225,7 @@ std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t v
 std::vector<VariantRenders> render_variants(std::span<const Variant> variants, const RendersRequest& request,
                                             ImageStore& store, const ThreadPool& threads) {
     std::vector<VariantRenders> renders(variants.size());
-    // All renders of a variant take as many samples; one by itself may spend the time exactly.
+    // All renders of a variant take equally many samples; a single render may spend the time exactly.
     std::vector<RenderBudget> budgets(variants.size(), request.budget);
     if (request.budget.seconds && !warm_up(variants, request, threads)) return renders;
     if (request.budget.seconds && request.seeds > 1) {

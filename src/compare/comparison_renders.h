@@ -57,13 +57,14 @@ struct RendersRequest {
 /// Returns how many of the `wanted` samples, each of which takes `sample_seconds`, come nearest to taking `seconds`.
 [[nodiscard]] std::uint32_t fit_samples(std::uint32_t wanted, double seconds, double sample_seconds);
 
-/// Holds what the samples of a render take, of every pixel.
+/// Holds how long a render takes for one sample of every pixel.
 struct SampleCost {
-    double first = 0.0;  ///< seconds of the first sample, with what is made once
+    double first = 0.0;  ///< seconds of the first sample, with the work that is done once
     double next = 0.0;   ///< seconds of each later one
 };
 
-/// Returns how many samples take `seconds`, at least one: the median of what `costs` say, those of several renders.
+/// Returns how many samples a render can take in `seconds`, at least one: the median over the
+/// `costs` of several renders.
 [[nodiscard]] std::uint32_t calibrated_samples(double seconds, std::span<const SampleCost> costs);
 
 /// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what

@@ -59,7 +59,7 @@ struct InputFile {
     std::string content;               ///< hash, in hexadecimal digits
 };
 
-/// The image of all strategies (--strategies-image) that was written with an image.
+/// Describes the image of all strategies (--strategies-image) that was written with a render.
 struct StrategiesShown {
     std::string file;      ///< its name
     int longest = 0;       ///< edges of the longest paths in it

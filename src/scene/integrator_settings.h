@@ -66,8 +66,8 @@ struct IntegratorSettings {
     /// Counts the lights, 1 to 64, that `path` and `direct` sample at each first vertex behind the eye and its mirrors.
     /// With 0, which no user asks for, paths find lights by chance only.
     std::uint32_t light_samples = 1;
-    /// Says whether paths go on from surfaces that only reflect, and have no deltas, in all directions alike, whatever
-    /// the surface reflects there: what `hemisphere` is for.
+    /// Says whether directions are sampled uniformly, not by the BSDF, at surfaces that only reflect and have no delta
+    /// lobes. The integrator `hemisphere` sets it.
     bool even_directions = false;
     /// Says how bidirectional path tracing weighs its strategies against each other.
     Heuristic heuristic = Heuristic::Balance;

@@ -39,7 +39,7 @@ struct VolumeDesc {
     int priority = 0;
 };
 
-/// A closed dielectric body whose surface reflects and refracts; the base colour tints what passes it.
+/// Describes a closed dielectric body whose surface reflects and refracts; the base colour tints transmitted light.
 struct DielectricDesc {
     float ior = 1.5f;        ///< against vacuum, in [1, 3]
     float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is perfectly smooth (delta)

@@ -48,8 +48,8 @@ void request_preview();
 [[nodiscard]] bool preview_requested();
 void clear_preview_request();
 
-/// Makes SIGTSTP (Ctrl-Z) a request while one lives, for who has processes to stop before itself; elsewhere it stops
-/// this process at once. Where SIGTSTP is ignored, it stays so.
+/// Turns SIGTSTP (Ctrl-Z) into a request while an object exists, so that a program can suspend its child processes
+/// before itself. Otherwise SIGTSTP suspends this process at once. If SIGTSTP is ignored, it stays ignored.
 class StopRequests {
   public:
     StopRequests();

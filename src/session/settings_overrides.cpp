@@ -20,7 +20,7 @@ void apply_quality(Quality quality, RenderSettings& settings) {
     if (quality == Quality::Final) return;
     settings.spp = std::max(1, settings.spp / (quality == Quality::Draft ? 16 : 4));
     settings.options["/spp"] = "--quality";
-    // The median of more means than there are samples would leave some empty; that of fewer than three is the mean.
+    // More buckets than samples would leave some empty; a median of fewer than three means is just the mean.
     if (settings.robust_buckets > settings.spp) settings.robust_buckets = settings.spp < 3 ? 0 : (settings.spp - 1) | 1;
     if (quality == Quality::Preview) return;
     FilmSettings& film = settings.film;

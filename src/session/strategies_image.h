@@ -27,11 +27,11 @@ struct StrategiesRequest {
     bool weighted = true;
 };
 
-/// Returns what the pyramid of a render with paths of these `lengths` shows.
+/// Returns a description of the strategies image that `request` asks for, if paths have these `lengths`.
 [[nodiscard]] StrategiesShown strategies_shown(const StrategiesRequest& request, const PathLengths& lengths);
 
-/// Returns whether nothing is asked for, or what is asked for was written with and after the image whose files are
-/// `image`, of paths of these `lengths`.
+/// Returns whether no strategies image is asked for, or the one asked for, of paths of these `lengths`, was written
+/// with the render whose files are `image`, and after it.
 [[nodiscard]] bool has_strategies_image(const StrategiesRequest& request, const PathLengths& lengths,
                                         const OutputPaths& image);
 

@@ -32,8 +32,8 @@ struct Staleness {
 /// image; none if there are no statistics.
 [[nodiscard]] std::vector<std::string> listed_layer_files(const OutputPaths& output);
 
-/// Returns the image of all strategies that the statistics of `output` tell of, which was written with it; none if
-/// there is none, or there are no statistics.
+/// Returns the strategies image that the statistics of `output` list; nothing if they list none, or there are no
+/// statistics.
 [[nodiscard]] std::optional<StrategiesShown> listed_strategies_image(const OutputPaths& output);
 
 /// Returns, without loading a scene, why the completed render `output` of the scene directory or file `scene` is

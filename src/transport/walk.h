@@ -105,8 +105,8 @@ struct VertexNumbers {
 /// times its scattering coefficient where it scatters, over the density.
 [[nodiscard]] Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u);
 
-/// Has the path go on from `vertex`, at which it took `light_samples`, in a direction that follows the `settings`;
-/// false if it ends there: light is absorbed, or the path would be too long.
+/// Extends the path from `vertex`, at which it took `light_samples`, in a direction sampled as `settings` say. Returns
+/// false if the path ends there: light is absorbed, or the path would be too long.
 [[nodiscard]] bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
                            std::uint32_t light_samples, const IntegratorSettings& settings);
 

@@ -71,7 +71,7 @@ class AcceleratedScene {
     class Filter;
 
     [[nodiscard]] Hit make_hit(const TriangleHit& hit, float time) const;
-    /// Returns the nearest hit of a shape within (0, t_max] that `filter` lets stop the ray, and counts all shapes.
+    /// Returns the nearest hit of a shape within (0, t_max] that `filter` accepts; `work` counts a test of each shape.
     [[nodiscard]] Hit closest_shape(const Ray& ray, float t_max, Filter& filter, RayWork& work) const;
 
     const WorldData& data_;

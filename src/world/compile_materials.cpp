@@ -31,7 +31,7 @@ Bsdf compile_conductor(const ConductorDesc& desc, const ColorMatrix& from_rec709
     return RoughConductor{fresnel, desc.roughness * desc.roughness};
 }
 
-/// Compiles a dielectric whose base colour is the same everywhere: it tints what passes the surface.
+/// Compiles a dielectric with a constant base colour, which tints light that passes the surface.
 Bsdf compile_dielectric(const DielectricDesc& desc, const Rgb& base_color, const ColorMatrix& from_rec709) {
     // White is white in every space, but for rounding.
     const Rgb tint = base_color == Rgb(1.0f) ? base_color : clamp_unit(from_rec709(base_color));
@@ -98,7 +98,7 @@ GltfModel compile_subsurface(const SubsurfaceDesc& desc) {
     return model;
 }
 
-/// Compiles a dielectric whose base colour a texture or the mesh varies, as glTF's glass.
+/// Compiles a dielectric whose base colour varies by texture or vertex colours; it becomes glass of the glTF model.
 GltfModel compile_varied_dielectric(const DielectricDesc& desc, const MaterialDesc& material,
                                     TextureCompiler& textures) {
     GltfModel model;
@@ -154,7 +154,7 @@ Beam compile_beam(const BeamDesc& desc) {
     return {};
 }
 
-/// `is_colored` says whether vertices with the material have colours of their own.
+/// Compiles a material; `is_colored` says whether meshes that use it have vertex colours.
 Material compile_material(const MaterialDesc& desc, bool is_colored, const ColorMatrix& from_rec709,
                           TextureCompiler& textures) {
     Material material;
@@ -238,7 +238,7 @@ class LeastRoughness {
     std::map<std::int32_t, std::optional<TexelRange>> ranges_;  ///< by texture
 };
 
-/// Tells of each material of the scene whether vertices with it have colours.
+/// Returns for each material of the scene whether any mesh that uses it has vertex colours.
 std::vector<bool> find_colored_materials(const SceneDesc& scene) {
     std::vector<bool> is_colored(scene.materials.size(), false);
     for (const MeshDesc& mesh : scene.meshes)

@@ -19,7 +19,7 @@ void attach(RTCScene scene, RTCGeometry geometry) {
 }
 
 // Embree's own spheres and discs are not used: they are met in single precision, are never ellipsoids, and their hits
-// name no place on the surface (u = v = 0) and one primitive on both sides of a ball, which rays pass independently.
+// have no u and v (both are 0). Front and back of a sphere also share one primitive, but rays pass them independently.
 void add_shape(const EmbreeGeometryMaker& maker, RTCScene scene, const ExactShape& shape, const HitFilter& filter) {
     const FilterFunctions functions = filter_functions(filter, maker.collects);
     maker.shapes.push_back(

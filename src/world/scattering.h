@@ -56,8 +56,8 @@ class Scattering {
     /// refraction compresses solid angles by n² |cos|, which the two see from either side: `reverse_ratio` has that.
     [[nodiscard]] BsdfSample sample(float u_lobe, Vec2f u, TransportMode mode) const;
 
-    /// Samples the hemisphere on the side of wo uniformly, for radiance, where the surface only reflects and has no
-    /// deltas; what other surfaces scatter is sampled as `sample` does.
+    /// Samples the hemisphere on the side of wo uniformly, for radiance, if the surface only reflects and has no delta
+    /// lobes. Otherwise it samples as `sample` does.
     [[nodiscard]] BsdfSample sample_evenly(float u_lobe, Vec2f u) const;
 
     /// All deltas, as radiance; wi in world space.

@@ -13,7 +13,7 @@ INTEGRATORS = (
     ("light", "Light tracing", "From the lights alone: caustics on diffuse surfaces"),
     ("direct", "Direct light", "One scattering between light and camera"),
     ("naive", "Naive", "From the camera, without sampling lights: slow, and right"),
-    ("hemisphere", "Hemisphere", "From the camera, in all directions alike: slower still, for teaching"),
+    ("hemisphere", "Hemisphere", "From the camera, with directions sampled uniformly: slower still, for teaching"),
     ("whitted", "Whitted", "Mirrors, glass and direct light, after Whitted"),
     ("albedo", "Albedo", "The colour of surfaces"),
     ("normals", "Normals", "The normals of surfaces"),

@@ -57,7 +57,7 @@ def film_settings(render: Any, settings: Any) -> Document:
 
 
 def integrator_settings(settings: Any) -> Document:
-    """Only what the chosen integrator looks at, or with 'auto' one that may be chosen for its caustics."""
+    """Returns the settings that the chosen integrator reads; with 'auto', those of bdpt and vcm, too."""
     kind = settings.integrator
     result: Document = {"type": kind, "max_depth": settings.max_depth}
     if kind in ("path", "direct"):

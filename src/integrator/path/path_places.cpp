@@ -197,7 +197,7 @@ void PathPlaces::make_scattering_singly(const PathContext& context, std::size_t 
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);
     if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); lobe != nullptr && lobe->is_plain() && !crossing)
         path.glossy = lobe;
-    // Lanes sample lobes.
+    // Lanes can only sample lobes, not directions uniformly.
     if (context.settings.even_directions) path.glossy = nullptr;
     block_.set_wide(k,
                     !context.settings.even_directions && (path.glossy != nullptr || (diffuse != nullptr && !crossing)));

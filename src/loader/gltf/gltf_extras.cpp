@@ -34,18 +34,18 @@ void take_from(const nlohmann::json* things, const std::string& pointer, ExtrasD
     }
 }
 
-/// Returns whether the extras of `thing` have settings.
+/// Returns whether the extras of the glTF object `thing` contain settings of Etendue.
 bool has_settings(const nlohmann::json* thing) {
     return member_of(member_of(thing, "extras"), kExtrasKey) != nullptr;
 }
 
-/// Warns once of settings in the extras of `things`, where nobody reads them.
+/// Warns once if the extras of `things` contain settings, which are not read there.
 void warn_of_unread(const nlohmann::json* things, const std::string& pointer, const GltfDocument& result,
                     ProblemList& problems) {
     if (things == nullptr) return;
     const auto warn = [&](const std::string& thing) {
         problems.warning(result.at(child_pointer(child_pointer(thing, "extras"), kExtrasKey)),
-                         "is not read here: it belongs into the extras of a scene, a node, a material, a camera or a "
+                         "is not read here: it belongs in the extras of a scene, a node, a material, a camera or a "
                          "light");
     };
     if (has_settings(things)) return warn(pointer);
@@ -107,7 +107,7 @@ void take_extras(const nlohmann::json& document, GltfDocument& result, ProblemLi
 
 void read_extras(const GltfDocument& document, SceneDesc& scene) {
     ExtrasReader reader(document, scene);
-    // What is said of one node comes after what is said of all that share its data, and that after what is said of all.
+    // Settings of the scene come first, then those of data that nodes share, then those of single nodes.
     for (const GltfExtras& extras : document.extras) {
         if (extras.of == ExtrasDesc::Of::Node) continue;
         const std::string thing = extras.pointer.substr(0, extras.pointer.rfind("/extras/"));

@@ -8,8 +8,8 @@
 
 namespace etendue {
 
-/// Notes in `result` all that the extras of the checked `document` say of its scenes, materials, nodes, cameras and
-/// lights; `problems` gets a warning for each other kind of thing of which they say something.
+/// Stores in `result` the settings in the extras of the scenes, materials, nodes, cameras and lights of the checked
+/// `document`. `problems` gets a warning for each other kind of object, such as meshes, whose extras have settings.
 void take_extras(const nlohmann::json& document, GltfDocument& result, ProblemList& problems);
 
 /// Finds what of the loaded `scene` the document's extras are about, and leaves out what is not shown.

@@ -112,8 +112,8 @@ class ExtrasMerger {
     }
 
   private:
-    /// Merges the sections of render.json that are about the scene's things; a render's settings are known before its
-    /// file is read.
+    /// Merges the sections `cameras`, `environment`, `lights` and `materials`. Others cannot be used: the render's
+    /// settings are fixed before the scene file is read.
     void merge_scene(const ExtrasDesc& extras, const ExtrasJson& sections) {
         for (const auto& [key, section] : sections.items()) {
             const SourceLocation where{extras.location.file, child_pointer(extras.location.pointer, key)};
@@ -146,7 +146,7 @@ class ExtrasMerger {
             static_cast<void>(read_environment(what, where, found));
         };
         if (!leave_out_wrong(*value, where, try_reading, problems_)) return;
-        ProblemList known;  // to whoever has read the parts
+        ProblemList known;  // already reported when the parts were read
         const auto given = document_.find("environment");
         if (given == document_.end()) {
             json_.environment = read_environment(*value, where, known);

@@ -5,8 +5,8 @@
 
 namespace etendue {
 
-/// Returns `json` with what the extras of `scene` say of it, its materials, lights and cameras beside it; what `json`
-/// says goes first, key by key. Nothing in extras is an error: what cannot be used is a warning.
+/// Returns `json` with the settings added that the extras of `scene` give the scene, its materials, lights and
+/// cameras. Keys in `json` take precedence. Nothing in extras is an error: what cannot be used is a warning.
 [[nodiscard]] RenderJson with_extras(RenderJson json, const SceneDesc& scene, ProblemList& problems);
 
 }  // namespace etendue

@@ -126,7 +126,7 @@ void apply_environment(const RenderJson& json, std::span<const std::filesystem::
         scene.environment.image = file;
         scene.inputs.push_back(file);
     } catch (const IoError& error) {
-        // The scene file's extras bring no errors.
+        // Mistakes in the scene file's extras are warnings, never errors.
         const bool is_from_extras = source != json.location.file;
         scene.environment.enabled = !is_from_extras;
         problems.add({is_from_extras ? Severity::Warning : Severity::Error, where,

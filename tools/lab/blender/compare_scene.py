@@ -45,7 +45,7 @@ def main():
     brightness = max(theirs.mean(), 1e-6)
 
     def far(mask):
-        """The root mean square of the differences of these pixels, over the mean of Cycles' whole image."""
+        """Returns the root mean square of the differences of these pixels, over the mean of Cycles' whole image."""
         return float(numpy.sqrt(numpy.square(ours[mask] - theirs[mask]).mean()) / brightness)
 
     objects = {item.pass_index: item.name for item in bpy.data.objects if item.pass_index > 0}
