@@ -195,12 +195,11 @@ void PathPlaces::make_scattering_singly(const PathContext& context, std::size_t 
     const Bsdf& bsdf = world.materials().bsdf(point, wo, crossing ? crossing->relative_ior(single.wavelength.nm) : 0.0f,
                                               single.storage);
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);
-    if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); lobe != nullptr && lobe->is_plain() && !crossing)
-        path.glossy = lobe;
     // Lanes can only sample lobes, not directions uniformly.
-    if (context.settings.even_directions) path.glossy = nullptr;
-    block_.set_wide(k,
-                    !context.settings.even_directions && (path.glossy != nullptr || (diffuse != nullptr && !crossing)));
+    const bool takes_lanes = !context.settings.even_directions && !crossing;
+    if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); takes_lanes && lobe != nullptr && lobe->is_plain())
+        path.glossy = lobe;
+    block_.set_wide(k, path.glossy != nullptr || (takes_lanes && diffuse != nullptr));
     if (path.is_wide) {
         block_.lanes.geometric_normal.set(k, point.geometric_normal);
         block_.lanes.clearance.set(k, point.clearance);

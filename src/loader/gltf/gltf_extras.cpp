@@ -95,7 +95,8 @@ class ExtrasReader {
 
 void take_extras(const nlohmann::json& document, GltfDocument& result, ProblemList& problems) {
     warn_of_unread(&document, "", result, problems);
-    for (const char* key : {"asset", "meshes", "animations", "skins", "images", "textures", "samplers"})
+    for (const char* key : {"accessors", "animations", "asset", "buffers", "bufferViews", "images", "meshes",
+                            "samplers", "skins", "textures"})
         warn_of_unread(member_of(&document, key), child_pointer("", key), result, problems);
     take_from(member_of(&document, "scenes"), "/scenes", ExtrasDesc::Of::Scene, result);
     take_from(member_of(&document, "materials"), "/materials", ExtrasDesc::Of::Material, result);

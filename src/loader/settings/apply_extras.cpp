@@ -151,8 +151,10 @@ class ExtrasMerger {
         if (given == document_.end()) {
             json_.environment = read_environment(*value, where, known);
         } else if (given->is_object() && json_.environment) {
+            // An image that is missing is a mistake of whoever names it.
+            const SourceLocation at = given->contains("image") ? json_.environment->location : where;
             value->update(*given);
-            json_.environment = read_environment(*value, json_.environment->location, known);
+            json_.environment = read_environment(*value, at, known);
         }
     }
 
