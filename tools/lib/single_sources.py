@@ -16,8 +16,9 @@ from pathlib import Path
 def commands(entry, together):
     """Returns the entries for the sources that CMake's `entry` compiles: one each, or itself if `together`."""
     command = re.sub(r" -Winvalid-pch -include \S+", "", entry["command"])
-    # Only g++ knows -Wshadow=local. In a group, the strict -Wshadow would find what other sources of it declare.
+    # Only g++ knows these. In a group, the strict -Wshadow would find what other sources of it declare.
     command = command.replace(" -Wshadow=local", "" if together else " -Wshadow")
+    command = command.replace(" -Wno-maybe-uninitialized", "")
     file = entry["file"]
     if together or not Path(file).name.startswith("unity_"):
         return [{**entry, "command": command}]
