@@ -173,7 +173,7 @@ void BatchRunner::begin_images(std::deque<std::size_t>& waiting, std::vector<std
 }
 
 void BatchRunner::leave(std::size_t index, Beginning how, std::vector<std::size_t>& held) {
-    first_frames_.end(index);
+    first_frames_.end(index, record_.unit(index).outcome != UnitOutcome::Failed);
     if (how == Beginning::Elsewhere) held.push_back(index);
     if (how == Beginning::Over) record_.count_done();
 }

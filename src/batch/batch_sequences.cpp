@@ -2,8 +2,10 @@
 
 #include "loader/loader.h"
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <map>
 
 namespace etendue {
@@ -22,35 +24,44 @@ bool names_exposure(const std::filesystem::path& scene) try {
 
 FirstFrames::FirstFrames(const BatchPlan& plan, const SettingsOverrides& overrides) {
     if (overrides.has("/color/exposure")) return;
-    std::map<std::filesystem::path, bool> has_exposure;        // of scenes
-    std::map<std::filesystem::path, std::size_t> first_frame;  // of sequences, by their name without a frame's number
+    std::map<std::filesystem::path, bool> has_exposure;     // of scenes
+    std::map<std::filesystem::path, std::size_t> sequence;  // by its output's name without a frame's number
     const auto is_in_sequence = [&](const BatchTask& task) {
         if (!task.job.frame) return false;
         const auto [scene, is_new] = has_exposure.try_emplace(task.job.scene, false);
         if (is_new) scene->second = names_exposure(task.job.scene);
         return !scene->second;
     };
+    sequences_.resize(plan.size());
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (!is_in_sequence(plan[i].task)) continue;
-        std::size_t& first = first_frame.try_emplace(plan[i].task.render_output, i).first->second;
-        if (*plan[i].task.job.frame < *plan[first].task.job.frame) first = i;
+        const auto [place, is_new] = sequence.try_emplace(plan[i].task.render_output, frames_that_wait_.size());
+        if (is_new) frames_that_wait_.emplace_back();
+        sequences_[i] = place->second;
+        frames_that_wait_[place->second].push_back(i);
     }
-    waits_for_.resize(plan.size());
-    has_ended_.resize(plan.size(), false);
-    for (std::size_t i = 0; i < plan.size(); ++i) {
-        if (!is_in_sequence(plan[i].task)) continue;
-        const std::size_t first = first_frame.at(plan[i].task.render_output);
-        if (first != i && plan[first].is_stale()) waits_for_[i] = first;
+    for (std::vector<std::size_t>& frames : frames_that_wait_) {
+        std::ranges::sort(frames, std::greater{}, [&](std::size_t i) { return *plan[i].task.job.frame; });
+        // The exposure of a first frame that is made already is there to be taken.
+        if (!plan[frames.back()].is_stale()) frames.clear();
+        std::erase_if(frames, [&](std::size_t i) { return !plan[i].is_stale(); });
     }
 }
 
 bool FirstFrames::lets_begin(std::size_t index) const {
-    if (index >= waits_for_.size() || !waits_for_[index]) return true;
-    return has_ended_[*waits_for_[index]];
+    if (index >= sequences_.size() || !sequences_[index]) return true;
+    const std::vector<std::size_t>& frames = frames_that_wait_[*sequences_[index]];
+    return frames.empty() || frames.back() == index;
 }
 
-void FirstFrames::end(std::size_t index) {
-    if (index < has_ended_.size()) has_ended_[index] = true;
+void FirstFrames::end(std::size_t index, bool is_made) {
+    if (index >= sequences_.size() || !sequences_[index]) return;
+    std::vector<std::size_t>& frames = frames_that_wait_[*sequences_[index]];
+    if (frames.empty() || frames.back() != index) return;
+    if (is_made)
+        frames.clear();
+    else
+        frames.pop_back();
 }
 
 }  // namespace etendue

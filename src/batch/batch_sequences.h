@@ -10,8 +10,8 @@
 
 namespace etendue {
 
-/// Holds back frames of sequences for which the user gives no exposure. Each waits until the first frame of its
-/// sequence that is still to be rendered is done, has failed or is left to another process.
+/// Holds back frames of sequences for which the user gives no exposure. All but the first of a sequence wait until
+/// that is made or left to another process. If it fails, the next one takes its place.
 class FirstFrames {
   public:
     /// Holds back nothing.
@@ -21,12 +21,12 @@ class FirstFrames {
 
     /// Returns whether the image at `index` in the plan has nothing to wait for.
     [[nodiscard]] bool lets_begin(std::size_t index) const;
-    /// Notes that the image has ended, or that another process has it.
-    void end(std::size_t index);
+    /// Notes that the image at `index` is made or that another process has it, or else that it failed.
+    void end(std::size_t index, bool is_made);
 
   private:
-    std::vector<std::optional<std::size_t>> waits_for_{};  ///< the index of the frame that each image waits for
-    std::vector<bool> has_ended_{};
+    std::vector<std::optional<std::size_t>> sequences_{};        ///< number of the sequence of each image
+    std::vector<std::vector<std::size_t>> frames_that_wait_{};  ///< images of each sequence, the last one first
 };
 
 }  // namespace etendue

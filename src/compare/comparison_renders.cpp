@@ -139,7 +139,7 @@ bool render_in_steps(TimedRender& render, const std::function<void()>& keep) {
     return !interrupt_requested();
 }
 
-/// Renders a sample of every variant, so that none of those whose time is counted is the first to read what all use;
+/// Renders a sample of every variant, so that no render whose time is counted is the first to read what all use;
 /// returns false if it is interrupted.
 bool warm_up(std::span<const Variant> variants, const RendersRequest& request, const ThreadPool& threads) {
     for (const Variant& variant : variants) {
@@ -227,7 +227,7 @@ std::vector<VariantRenders> render_variants(std::span<const Variant> variants, c
     std::vector<VariantRenders> renders(variants.size());
     // All renders of a variant take equally many samples; a single render may spend the time exactly.
     std::vector<RenderBudget> budgets(variants.size(), request.budget);
-    if (request.budget.seconds && !warm_up(variants, request, threads)) return renders;
+    if (request.budget.seconds && request.seeds == 1 && !warm_up(variants, request, threads)) return renders;
     if (request.budget.seconds && request.seeds > 1) {
         std::optional<std::vector<RenderBudget>> calibrated = calibrate(variants, request, threads);
         if (!calibrated) return renders;

@@ -69,9 +69,9 @@ struct SampleCost {
 
 /// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what
 /// else the machine does falls on all alike. All renders of a variant take as many samples. If times are equal, that
-/// number comes from three short renders of each variant, or, for one seed, from the time that the render has spent;
-/// before, each variant renders one sample. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2)
-/// apart. Once an interrupt is requested, the renders are returned that all variants have.
+/// number comes from three renders of each variant before, each for a fifth of the time. With one seed, each variant
+/// renders one sample before, and then until the time is spent. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a
+/// factor of sqrt(2) apart. Once an interrupt is requested, the renders are returned that all variants have.
 [[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
                                                           const RendersRequest& request, ImageStore& store,
                                                           const ThreadPool& threads);

@@ -22,6 +22,8 @@ struct HomogeneousMedium {
     Rgb extinction{};             ///< absorbed and scattered, 1/m, >= 0
     Rgb single_scatter_albedo{};  ///< the scattered share of it, [0, 1]
     HenyeyGreenstein phase{};
+    /// Light scatters so often on its way through that connections between two points of it do not pay.
+    bool is_dense = false;
 
     [[nodiscard]] bool is_empty() const { return is_black(extinction); }
     [[nodiscard]] bool scatters() const { return !is_black(extinction * single_scatter_albedo); }

@@ -76,6 +76,7 @@ struct DepartingDensities {
     double pdf_forward = 1.0;    ///< 1/sr, of the direction; 1/m², of the point across it, from infinity
     double cosine = 1.0;         ///< |cos theta_i|
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
+    bool is_in_dense = false;    ///< the vertex lies in a dense medium, within which nothing is connected
 
     /// Goes on through the boundary of a body that another hides: no connection passes it, so that merges count from
     /// there on as after a delta.
@@ -85,14 +86,16 @@ struct DepartingDensities {
         merged = 0.0;
     }
     /// Returns the densities at a vertex `squared_distance` m² away, >= 0, or 1 where `pdf_forward` is per area, and
-    /// where the direction has the cosine `cos_arriving`. The distance cancels in b, and divides nothing in a: media
-    /// scatter light again after no distance at all.
-    [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
+    /// where the direction has the cosine `cos_arriving`; `in_dense` if it lies in a dense medium. The distance cancels
+    /// in b, and divides nothing in a: media scatter light again after no distance at all.
+    [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving,
+                                          bool in_dense = false) const {
         const double across = pdf_forward * cos_arriving;
         const bool arrives = across > 0.0;
+        const bool connects = is_connectible && !(is_in_dense && in_dense);
         const double inverse = 1.0 / raised(across);
         const double back = raised(cosine);
-        return {.a = arrives && is_connectible ? raised(squared_distance) * inverse : 0.0,
+        return {.a = arrives && connects ? raised(squared_distance) * inverse : 0.0,
                 .b = arrives ? back * d * inverse : 0.0,
                 .merge_b = arrives ? back * merged * inverse : 0.0};
     }

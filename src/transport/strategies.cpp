@@ -54,6 +54,7 @@ StrategyLight light_sampled(const SubpathSample& sample, const SubpathVertex& ey
 StrategyLight light_connected(const SubpathSample& sample, const SubpathVertex& eye, const SubpathVertex& light) {
     const World& world = sample.world();
     if (!sample.lengths.keeps(eye.next_edges + light.next_edges - 1)) return {};
+    if (eye.is_in_dense() && light.is_in_dense()) return {};
     const Vec3f to_light = light.position - eye.position;
     const float squared = length_squared(to_light);
     if (!(squared > 0.0f)) return {};

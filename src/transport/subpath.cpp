@@ -8,13 +8,14 @@ namespace etendue {
 
 namespace {
 
-/// Returns the densities with which the subpath arrives at `position`, where its ray has this cosine.
-SubpathDensities densities_at(const SubpathSample& sample, const Subpath& subpath, const Vec3f& position,
-                              float cosine) {
+/// Returns the densities with which the subpath arrives at `vertex`, where its ray has this cosine.
+SubpathDensities densities_at(const SubpathSample& sample, const Subpath& subpath, const Vertex& vertex, float cosine) {
+    const Vec3f& position = vertex.position;
     const auto cos_arriving = static_cast<double>(cosine);
     if (subpath.index > 1) {
         const auto squared_distance = static_cast<double>(length_squared(position - subpath.from));
-        SubpathDensities arrived = subpath.departing.arrive(sample.mis.raised, squared_distance, cos_arriving);
+        SubpathDensities arrived =
+            subpath.departing.arrive(sample.mis.raised, squared_distance, cos_arriving, vertex.is_in_dense());
         if (subpath.end == SubpathEnd::AtLight && sample.counts_path_tracing_alone) arrived.a = 0.0;
         return arrived;
     }
@@ -38,6 +39,7 @@ void depart_from(const SubpathSample& sample, Subpath& subpath, const Vertex& ve
                             ? depart_by_delta(sample.mis.raised, densities, scattered.reverse_ratio, cosine)
                             : depart(sample.mis.raised, densities, scattered.pdf_solid_angle,
                                      vertex.reverse_pdf(scattered.wi, subpath.mode()), cosine);
+    subpath.departing.is_in_dense = vertex.is_in_dense();
     subpath.throughput *= scattered.weight;
     if (subpath.end == SubpathEnd::AtEye && scattered.is_transmission)
         subpath.roulette_scale *= scattered.eta * scattered.eta;
@@ -157,7 +159,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
         const auto vertex = hit.has_end() ? medium_vertex(world, arriving, subpath.throughput, u_medium) : std::nullopt;
         if (vertex) {
             if (is_among_others) subpath.throughput *= chance_beyond(world, subpath.ray, vertex->position);
-            const SubpathDensities densities = densities_at(sample, subpath, vertex->position, 1.0f);
+            const SubpathDensities densities = densities_at(sample, subpath, *vertex, 1.0f);
             vertices.push_back(make_vertex(subpath, *vertex, densities, subpath.edges));
             const Vec2f u = sample.pair(subpath.end, bounce, SubpathDimension::Scattering);
             depart_from(sample, subpath, *vertex, densities, vertex->sample(0.0f, u, subpath.mode()));
@@ -170,7 +172,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             const float nanometres = subpath.is_dispersed ? sample.wavelength().nm : 0.0f;
             const Vertex surface = surface_vertex(world, arriving, nanometres, sample.wavelength_number());
             const float cosine = abs_dot(subpath.ray.direction, surface.surface.geometric_normal);
-            const SubpathDensities densities = densities_at(sample, subpath, surface.position, cosine);
+            const SubpathDensities densities = densities_at(sample, subpath, surface, cosine);
             if (arrive) arrive(subpath, surface, densities);
             if (surface.kind == Vertex::Kind::Unlit) break;
             if (surface.kind == Vertex::Kind::Boundary) {

@@ -47,6 +47,8 @@ struct Vertex {
         return placed;
     }
 
+    /// Returns whether light scatters here in a dense medium, within which nothing is connected.
+    [[nodiscard]] bool is_in_dense() const { return medium != nullptr && medium->is_dense; }
     /// Returns whether light that leaves the vertex straight for the camera arrives there.
     [[nodiscard]] bool lights_camera() const {
         return surface.material == nullptr || surface.material->lights_camera();

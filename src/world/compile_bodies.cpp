@@ -47,6 +47,13 @@ Filling compile_subsurface(const SubsurfaceDesc& desc, const ColorMatrix& from_r
     return filling;
 }
 
+/// Returns whether light scatters so often on its way through a body of `size` metres that subpaths have dozens of
+/// vertices there. Each connected to each would take most of the time, for pairs that all see much the same.
+bool is_dense(const HomogeneousMedium& medium, float size) {
+    constexpr float kDense = 10.0f;  // free paths across the body
+    return medium.scatters() && min_component(medium.extinction) * size >= kDense;
+}
+
 /// Bounds where an instance places a geometry whose own bounds are `local`.
 Bounds placed(const Bounds& local, const Instance& instance) {
     return instance.baked ? local : placed(local, instance.to_world);
@@ -259,6 +266,10 @@ void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& proble
             candidates[entry->second].bounds.extend(placed(local_bounds[geometry], instance));
             candidate_of_slot[instance.first_light_slot + g] = entry->second;
         }
+    }
+    for (const Candidate& candidate : candidates) {
+        HomogeneousMedium& medium = data.fillings[candidate.filling].medium;
+        medium.is_dense = medium.is_dense || is_dense(medium, candidate.size());
     }
     note_closed_sheets(scene, data, problems);
     if (candidates.empty()) return;

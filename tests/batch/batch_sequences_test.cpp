@@ -40,10 +40,22 @@ TEST(FirstFrames, AreWaitedForByThoseOfTheirSequence) {
                          stale_image(folder / "b", std::nullopt), stale_image(folder / "b", 2)};
     FirstFrames frames(plan, {});
     EXPECT_EQ(which_begin(frames, plan), (Which{false, true, true, true, false}));
-    frames.end(2);
+    frames.end(2, true);
     EXPECT_EQ(which_begin(frames, plan), (Which{false, true, true, true, true}));
-    frames.end(1);
+    frames.end(1, true);
     EXPECT_EQ(which_begin(frames, plan), Which(5, true));
+}
+
+TEST(FirstFrames, GiveWayToTheNextIfTheyFail) {
+    const TestFolder folder;
+    write_scene(folder / "a");
+    const BatchPlan plan{stale_image(folder / "a", 4), stale_image(folder / "a", 2), stale_image(folder / "a", 3)};
+    FirstFrames frames(plan, {});
+    EXPECT_EQ(which_begin(frames, plan), (Which{false, true, false}));
+    frames.end(1, false);
+    EXPECT_EQ(which_begin(frames, plan), (Which{false, false, true}));
+    frames.end(2, true);
+    EXPECT_TRUE(frames.lets_begin(0));
 }
 
 TEST(FirstFrames, AreNotWaitedForIfTheyAreUpToDate) {

@@ -268,7 +268,7 @@ void BdptWave::find_cached(const BdptJob& job, const ConnectibleVertex& eye, int
 
 void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const DiffuseEnd& eye_end,
                     const ConnectibleVertex& light, float scale) {
-    if (!job.lengths.keeps(eye.next_edges + light.next_edges - 1) ||
+    if ((eye.is_in_dense && light.is_in_dense) || !job.lengths.keeps(eye.next_edges + light.next_edges - 1) ||
         !job.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
     const DiffuseEnd& light_end = light_.vertices().diffuse_end(light);

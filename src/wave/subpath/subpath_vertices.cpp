@@ -54,9 +54,9 @@ PathVertex& SubpathVertices::store(SubpathState& state) {
     return vertex;
 }
 
-void SubpathVertices::list_connectible(const SubpathState& state, int next_edges, float merged) {
+void SubpathVertices::list_connectible(const SubpathState& state, int next_edges, float merged, bool is_in_dense) {
     connectible_.push_back({static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index, next_edges,
-                            state.only_deltas, state.is_dispersed, state.is_after_delta, merged});
+                            state.only_deltas, state.is_dispersed, state.is_after_delta, is_in_dense, merged});
 }
 
 void SubpathVertices::place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex) {

@@ -70,7 +70,7 @@ class SubpathVertices {
     /// ones.
     void keep_interiors(const SideInteriors& interiors) { interiors_.push_back(interiors); }
     /// Puts the vertex just stored among those that can be connected. `state` is the subpath's before it scatters.
-    void list_connectible(const SubpathState& state, int next_edges, float merged = 0.0f);
+    void list_connectible(const SubpathState& state, int next_edges, float merged, bool is_in_dense = false);
     /// Puts `vertex` on the surface at `point`, with lobes for the index `relative_ior` as in Materials::bsdf.
     void place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex);
     /// Returns the vertex at a place in `all`.

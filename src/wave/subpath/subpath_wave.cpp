@@ -184,11 +184,12 @@ void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
     }
 }
 
-SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {
+SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine,
+                                     bool in_dense) const {
     const SubpathState& state = states_[i];
     if (state.index > 1)
         return state.departing.arrive(job.mis.raised, static_cast<double>(length_squared(position - state.from)),
-                                      cosine);
+                                      cosine, in_dense);
     if (end_ == SubpathEnd::AtLight)
         return arrive_from_light(job.mis, emissions_[state.slot], state.departing, position, cosine);
     const Vec2f lens = job.samples[state.slot].lens;
@@ -297,15 +298,16 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     vertex.wo = wo;
     vertex.outside = vertex.inside = medium;
     if (job.world().traits().has_clear_bodies) vertices_.keep_interiors({interiors_[i], interiors_[i]});
-    vertex.densities = arrive(job, i, vertex.position, 1.0);
+    vertex.densities = arrive(job, i, vertex.position, 1.0, medium->is_dense);
     vertex.next_edges = state.edges;
-    vertices_.list_connectible(state, state.edges);
+    vertices_.list_connectible(state, state.edges, 0.0f, medium->is_dense);
     ray.origin = vertex.position;
     ray.direction = medium->phase.sample(wo, scattering_[i]);
     // Forwards and backwards a phase function has one density.
     const float phase = medium->phase.pdf_solid_angle(wo, ray.direction);
     state.from = vertex.position;
     state.departing = depart(job.mis.raised, vertex.densities, phase, phase, 1.0f);
+    state.departing.is_in_dense = medium->is_dense;
     state.lights_directly = state.only_deltas;
     state.only_deltas = false;
     if (vertices_.words().are_followed()) vertices_.follow_words(state, VertexEvent{});

@@ -110,8 +110,8 @@ class SubpathWave {
     /// Takes subpath `i` past a vertex on a surface, at `position`, whose sample has `weight`; false if the sample is
     /// black. Ray and words of the subpath are left to the caller.
     bool scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight, bool is_delta);
-    [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
-                                          double cosine) const;
+    [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine,
+                                          bool in_dense = false) const;
     /// Russian roulette for subpaths [first, first + count). Moves those that go on to where `kept` says, their
     /// throughput divided by their chance.
     void keep_survivors(const SubpathJob& job, std::size_t first, std::size_t count, std::size_t& kept);

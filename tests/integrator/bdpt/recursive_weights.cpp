@@ -93,6 +93,7 @@ class GivenPath {
                                                           is_its_way ? ratio : 1.0f / ratio, vertex.cosine(w))
                                         : depart(mis_.raised, vertex.densities, value.pdf_solid_angle,
                                                  value.reverse_pdf_solid_angle, vertex.cosine(w));
+        side.departing[i].is_in_dense = vertex.is_in_dense();
     }
     void resize(Side& side) const {
         side.vertices.resize(path_.inner.size());
@@ -112,7 +113,8 @@ class GivenPath {
             if (!is_direct(i)) departing.pass_hidden();
             is_after_delta = is_after_delta || !is_direct(i);
             vertex.densities = i == 0 ? arrive_from_light(mis_, emission, departing, vertex.position, cosine)
-                                      : departing.arrive(mis_.raised, squared_distance(i - 1), cosine);
+                                      : departing.arrive(mis_.raised, squared_distance(i - 1), cosine,
+                                                         vertex.is_in_dense());
             vertex.is_after_delta = is_after_delta;
             light_.merges[i] = merges({.end = SubpathEnd::AtLight, .is_after_delta = is_after_delta}, i, vertex);
             is_after_delta = is_after_delta || is_delta(i);
@@ -128,7 +130,8 @@ class GivenPath {
             DepartingDensities departing = i == last() ? DepartingDensities() : eye_.departing[i + 1];
             if (!is_direct(i + 1)) departing.pass_hidden();
             vertex.densities = i == last() ? arrive_from_lens(mis_, departing, path_.camera, cosine)
-                                           : departing.arrive(mis_.raised, squared_distance(i), cosine);
+                                           : departing.arrive(mis_.raised, squared_distance(i), cosine,
+                                                              vertex.is_in_dense());
             eye_.merges[i] = merges({.end = SubpathEnd::AtEye,
                                      .index = static_cast<int>(last() - i) + kDirectlySeen,
                                      .only_deltas = only_deltas,
@@ -222,6 +225,7 @@ class GivenPath {
     /// With vertices up to `i` from the light.
     [[nodiscard]] double weight_between(std::size_t i) const {
         if (!scatters_freely(i) || !scatters_freely(i + 1) || !is_direct(i + 1)) return 0.0;
+        if (path_.inner[i]->is_in_dense() && path_.inner[i + 1]->is_in_dense()) return 0.0;
         return sums_between(mis_.raised, eye_.vertices[i + 1], light_.vertices[i], to_light(i + 1),
                             static_cast<float>(squared_distance(i)), eye_.values[i + 1], light_.values[i])
             .weight();

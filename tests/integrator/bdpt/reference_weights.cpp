@@ -91,7 +91,7 @@ class Path {
 
     /// True if vertices i - 1 and i can be those of a connection.
     [[nodiscard]] bool connects(std::size_t i) const {
-        return scatters_freely(i - 1) && scatters_freely(i) && is_direct(i);
+        return scatters_freely(i - 1) && scatters_freely(i) && is_direct(i) && !(is_in_dense(i - 1) && is_in_dense(i));
     }
 
     /// True if subpaths merge at vertex i.
@@ -135,6 +135,9 @@ class Path {
     }
     [[nodiscard]] bool scatters_freely(std::size_t i) const {
         return i == 0 || i > inner_.size() || (inner_[i - 1]->has_non_delta() && !is_delta(i));
+    }
+    [[nodiscard]] bool is_in_dense(std::size_t i) const {
+        return i >= 1 && i <= inner_.size() && inner_[i - 1]->is_in_dense();
     }
     /// True if nothing but the edge lies between vertices i - 1 and i.
     [[nodiscard]] bool is_direct(std::size_t i) const {
