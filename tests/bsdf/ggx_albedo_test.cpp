@@ -62,12 +62,13 @@ struct Reference {
     double dielectric = 0.0;
 };
 
-Reference integrate(double cos_theta, double alpha, double eta) {
-    constexpr int kSamples = 16'384;
+constexpr int kFine = 16'384;
+
+Reference integrate(double cos_theta, double alpha, double eta, int samples = kFine) {
     const Vector wo{std::sqrt(1.0 - cos_theta * cos_theta), 0.0, cos_theta};
     const double masking = 1.0 + lambda(cos_theta, alpha);
     Reference sum;
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < samples; ++i) {
         // Roberts's R2 sequence.
         double ignored;
         const Vector h = visible_normal(wo, alpha, std::modf(0.5 + 0.7548776662466927 * i, &ignored),
@@ -84,7 +85,7 @@ Reference integrate(double cos_theta, double alpha, double eta) {
         const double down = h.z * (o_h / eta - cos_t) - wo.z / eta;
         if (down < 0.0) sum.dielectric += (1.0 - f) * masking / (masking + lambda(down, alpha));
     }
-    return {sum.single / kSamples, sum.schlick / kSamples, sum.dielectric / kSamples};
+    return {sum.single / samples, sum.schlick / samples, sum.dielectric / samples};
 }
 
 // Off the tables' nodes.
@@ -101,16 +102,23 @@ TEST(GgxAlbedo, TablesAgreeWithASecondImplementation) {
         }
 }
 
+// A coarse estimate that differs by more than half of the tolerance is repeated with more samples.
 TEST(GgxAlbedo, DielectricTablesAgreeWithASecondImplementation) {
+    constexpr int kCoarse = 2048;
+    constexpr double kTolerance = 5e-3;
     for (const float index : {1.002f, 1.003f, 1.01f, 1.05f, 1.13f, 1.47f, 2.31f, 5.7f, 9.0f})
         for (const float eta : {index, 1.0f / index})
             for (const float alpha : kAlphas) {
                 const auto expect_close = [=](float cos_theta) {
-                    const Reference reference =
-                        integrate(static_cast<double>(cos_theta), static_cast<double>(alpha), static_cast<double>(eta));
-                    EXPECT_NEAR(static_cast<double>(ggx_dielectric_albedo(cos_theta, alpha, eta)), reference.dielectric,
-                                5e-3)
-                        << alpha << " " << cos_theta << " " << eta;
+                    const auto table = static_cast<double>(ggx_dielectric_albedo(cos_theta, alpha, eta));
+                    const auto exact = [&](int samples) {
+                        return integrate(static_cast<double>(cos_theta), static_cast<double>(alpha),
+                                         static_cast<double>(eta), samples)
+                            .dielectric;
+                    };
+                    const bool is_close = std::abs(table - exact(kCoarse)) <= 0.5 * kTolerance;
+                    EXPECT_TRUE(is_close || std::abs(table - exact(kFine)) <= kTolerance)
+                        << table << " at " << alpha << " " << cos_theta << " " << eta;
                 };
                 for (const float cos_theta : kCosines) expect_close(cos_theta);
                 // About the critical angle.

@@ -21,7 +21,7 @@ namespace {
 using namespace etendue;
 using namespace etendue::ggx_anisotropic_layout;
 
-constexpr std::uint32_t kSamples = 4096;
+constexpr std::uint32_t kSamples = 2048;
 
 std::uint16_t encode(float value) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * kLargestValue));

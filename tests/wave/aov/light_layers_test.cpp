@@ -123,7 +123,7 @@ class LightLayersAgree : public testing::TestWithParam<Shares> {
                                                                   const AgreementCase& room,
                                                                   const std::vector<std::string>& expressions,
                                                                   std::uint32_t first_seed) {
-        constexpr std::uint32_t kSeeds = 12;
+        constexpr std::uint32_t kSeeds = 8;
         const auto aovs = std::make_shared<AovSet>(expression_layers(room, expressions));
         std::vector<std::vector<ImageF>> images(expressions.size());
         for (std::uint32_t seed = first_seed; seed < first_seed + kSeeds; ++seed) {
