@@ -78,13 +78,17 @@ configure_preset() {
         die "configuring the preset '$1' failed; the reason is above"
 }
 
-# build_preset PRESET [TARGET...]: configures, then builds the targets, or everything.
+# build_preset PRESET [TARGET...]: configures, then builds the targets, or everything; one at a time for each preset.
 build_preset() {
     local preset=$1
     shift
+    mkdir -p "$ETENDUE_ROOT/build"
+    exec 9>"$ETENDUE_ROOT/build/.$preset.lock"
+    flock 9
     configure_preset "$preset"
     local targets=()
     [[ $# -eq 0 ]] || targets=(--target "$@")
     (cd "$ETENDUE_ROOT" && cmake --build --preset "$preset" --parallel "$ETENDUE_JOBS" "${targets[@]}") ||
         die "building the preset '$preset' failed; the compiler's messages are above"
+    exec 9>&-
 }
