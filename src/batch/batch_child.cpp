@@ -1,6 +1,7 @@
 #include "batch/batch_child.h"
 
 #include "batch/json_lookup.h"
+#include "core/content_hash.h"
 #include "core/error.h"
 #include "session/exit_code.h"
 #include "session/interrupt.h"
@@ -153,7 +154,7 @@ SceneNames find_names(const std::filesystem::path& scene, const BatchOptions& op
 }
 
 std::vector<std::string> display_arguments(const std::filesystem::path& statistics) {
-    std::ifstream in(statistics);
+    std::ifstream in = open_regular_file(statistics);
     const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
     std::vector<std::string> arguments;
     for (const std::string name : {"display", "view", "look"})

@@ -1,6 +1,7 @@
 #include "batch/batch_ledger.h"
 
 #include "batch/json_lookup.h"
+#include "core/content_hash.h"
 #include "core/error.h"
 #include "core/system_error_text.h"
 #include "process/file_descriptor.h"
@@ -99,6 +100,7 @@ std::string utc_time() {
 
 void BatchLedger::append(const LedgerEvent& event) const {
     std::string line = to_line(event);
+    require_regular_file(path_);
     const FileDescriptor file(::open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
     if (!file.is_open()) throw_ledger_error(path_, errno);
     // Not every file system appends at once what comes from several machines.
@@ -117,6 +119,7 @@ void BatchLedger::append(const LedgerEvent& event) const {
 }
 
 void LedgerHistory::read_new() {
+    require_regular_file(path_);
     std::ifstream file(path_, std::ios::binary);
     file.seekg(static_cast<std::streamoff>(read_));
     // A line that is longer than anything that is written here is not kept in memory.

@@ -54,7 +54,7 @@ class BatchLedger {
 
     /// Appends the event with time, host and process id, by one write, and waits until it is on the disk. If the last
     /// line has no end, because a writer died, it gets one first: what was torn stays alone. Several processes may
-    /// append at once. Throws IoError; nothing is appended then.
+    /// append at once. Throws IoError, also if the ledger is no regular file; nothing is appended then.
     void append(const LedgerEvent& event) const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -78,7 +78,8 @@ class LedgerHistory {
 
     explicit LedgerHistory(std::filesystem::path path) : path_(std::move(path)) {}
 
-    /// Reads what was appended since the last time. A ledger that is missing or cannot be read is empty.
+    /// Reads what was appended since the last time. A ledger that is missing or cannot be read is empty. Throws IoError
+    /// if it is no regular file.
     void read_new();
 
     /// Returns the last that is known of `unit`; null if nothing is. Valid until the next `read_new`.

@@ -90,7 +90,7 @@ std::string to_json(const ProcessOwner& owner, const std::string& image) {
 std::optional<ProcessOwner> read_owner(const fs::path& file) {
     constexpr std::size_t kMostBytes = 1 << 16;
     std::string text(kMostBytes, '\0');
-    std::ifstream in(file, std::ios::binary);
+    std::ifstream in = open_regular_file(file);
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in.gcount()));
     try {
@@ -101,9 +101,11 @@ std::optional<ProcessOwner> read_owner(const fs::path& file) {
     }
 }
 
-/// Returns whether `file` was last touched at most `dead_after` before the time `now()`, a timespec.
+/// Returns whether `file` was last touched at most `dead_after` before the time `now()`, a timespec. No owner has made
+/// what is no regular file.
 template <typename Now>
 bool is_young(const fs::path& file, const Now& now, std::chrono::seconds dead_after) {
+    if (is_irregular(file)) return false;
     // Opened, so that a network file system asks its server.
     const FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};

@@ -67,7 +67,7 @@ PlanRow row_of(const PlannedUnit& unit) {
             unit.is_stale() ? shown_text(unit.reason) : "-",
             known(outline.width > 0, fmt::format("{}x{}", outline.width, outline.height)),
             known(outline.spp > 0, fmt::format("{}", outline.spp)),
-            known(!outline.integrator.empty(), outline.integrator),
+            known(!outline.integrator.empty(), shown_text(outline.integrator)),
             known(!outline.camera.empty(), shown_text(outline.camera)),
             unit.is_stale() && unit.error.empty() ? format_estimate(unit.estimated_seconds) : "-",
             shown_text(unit.task.job.output.string())};

@@ -4,6 +4,7 @@
 #include "core/process_time.h"
 #include "core/shown_text.h"
 #include "core/system_error_text.h"
+#include "core/write_file.h"
 #include "session/progress_display.h"
 #include "session/usage_error.h"
 
@@ -155,6 +156,7 @@ std::string format_clock(std::chrono::system_clock::time_point time, std::chrono
 BatchProgress::BatchProgress(bool quiet, const std::filesystem::path& log, std::chrono::milliseconds between_lines)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), between_lines_(between_lines) {
     if (log.empty()) return;
+    require_no_pipe(log);
     log_.open(log, std::ios::app);
     if (!log_)
         throw UsageError(fmt::format("--log '{}': the file cannot be opened for writing: {}", log.string(),

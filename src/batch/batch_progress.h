@@ -77,7 +77,8 @@ class BatchProgress {
   public:
     /// Shows the progress of a batch on stderr, but for nothing if `quiet`, and appends every line to the file `log`
     /// unless that is empty. Where stderr is no terminal, and in the file, there is a line of progress for each time
-    /// `between_lines`, and lines begin with the time. Throws UsageError if the file cannot be opened.
+    /// `between_lines`, and lines begin with the time. Throws UsageError if the file cannot be opened, IoError if
+    /// it is a pipe that has a name.
     explicit BatchProgress(bool quiet, const std::filesystem::path& log = {},
                            std::chrono::milliseconds between_lines = std::chrono::minutes(1));
     ~BatchProgress();

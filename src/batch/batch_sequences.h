@@ -25,7 +25,7 @@ class FirstFrames {
     void end(std::size_t index, bool is_made);
 
   private:
-    std::vector<std::optional<std::size_t>> sequences_{};        ///< number of the sequence of each image
+    std::vector<std::optional<std::size_t>> sequences_{};       ///< number of the sequence of each image
     std::vector<std::vector<std::size_t>> frames_that_wait_{};  ///< images of each sequence, the last one first
 };
 

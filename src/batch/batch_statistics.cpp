@@ -1,13 +1,14 @@
 #include "batch/batch_statistics.h"
 
 #include "batch/json_lookup.h"
+#include "core/content_hash.h"
 
 #include <fstream>
 
 namespace etendue {
 
 void read_statistics(const std::filesystem::path& file, BatchUnit& unit) {
-    std::ifstream in(file);
+    std::ifstream in = open_regular_file(file);
     const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
     if (!json.is_object()) return;
     unit.width = number_at<int>(json, "/size/0").value_or(0);

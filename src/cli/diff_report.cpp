@@ -96,8 +96,8 @@ void print_report(const MeasuredPair& pair, const MeasureOptions& options, const
             limit ? fmt::format("; limit {:g}{}", *limit, result.is_too_large(measure) ? ", exceeded" : "") : "");
     }
     if (result.map)
-        fmt::format_to(out, "map             {}: {} from 0 to {:.6g} ({})\n", result.map->file, result.map->measure,
-                       result.map->largest, result.map->scale);
+        fmt::format_to(out, "map             {}: {} from 0 to {:.6g} ({})\n", shown_text(result.map->file),
+                       result.map->measure, result.map->largest, result.map->scale);
     print_text(text);
 }
 

@@ -149,7 +149,8 @@ std::string to_text(const Inspection& i) {
     fmt::format_to(out, "{}", i.description);
     if (i.outline)
         fmt::format_to(out, "image: {}x{} pixels, {} samples per pixel, {}, camera '{}'\n", i.outline->width,
-                       i.outline->height, i.outline->spp, i.outline->integrator, shown_text(i.outline->camera));
+                       i.outline->height, i.outline->spp, shown_text(i.outline->integrator),
+                       shown_text(i.outline->camera));
     if (!i.description.empty()) {
         if (i.bounds.empty())
             fmt::format_to(out, "bounds: none (nothing is placed)\n");

@@ -12,6 +12,7 @@
 #include "session/interrupt.h"
 #include "session/usage_error.h"
 
+#include <csignal>
 #include <cstddef>
 #include <exception>
 #include <memory>
@@ -70,6 +71,8 @@ ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
 
 int run_program(int argc, char** argv) {
     keep_standard_descriptors();
+    // A file that would pass the limit of file sizes (ulimit -f) is an error of writing, also of help and of errors.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         (void)ray_code();
         (void)source_date();

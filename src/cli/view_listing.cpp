@@ -74,7 +74,7 @@ OrderedJson file_json(const ViewedFile& file) {
 }  // namespace
 
 std::string list_as_text(const ColorConfig& colors, const std::optional<ViewedFile>& file) {
-    std::string text = fmt::format("OpenColorIO config: {}\n", colors.origin());
+    std::string text = fmt::format("OpenColorIO config: {}\n", shown_text(colors.origin()));
     list_displays(colors, text);
     if (file) list_layers(*file, text);
     return text;

@@ -53,10 +53,18 @@ std::string content_hex(std::string_view text) {
     return hex(hash.digest());
 }
 
-void require_regular_file(const std::filesystem::path& path) {
+bool is_irregular(const std::filesystem::path& path) {
     std::error_code ignored;
-    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-        throw IoError(fmt::format("cannot read {}: it is no regular file", path.string()));
+    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+void require_regular_file(const std::filesystem::path& path) {
+    if (is_irregular(path)) throw IoError(fmt::format("cannot read {}: it is no regular file", path.string()));
+}
+
+std::ifstream open_regular_file(const std::filesystem::path& path) {
+    return std::ifstream(is_irregular(path) ? std::filesystem::path() : path, std::ios::binary);
 }
 
 ContentHash::Digest hash_file(const std::filesystem::path& path) {

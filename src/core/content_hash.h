@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
@@ -37,8 +38,14 @@ class ContentHash {
 /// Returns the digest of `text` as 32 hexadecimal digits.
 [[nodiscard]] std::string content_hex(std::string_view text);
 
-/// Throws IoError if `path` exists and is no regular file: reading a pipe would block, and a device may never end.
+/// True if `path` exists and is no regular file: reading a pipe would block, and a device may never end.
+[[nodiscard]] bool is_irregular(const std::filesystem::path& path);
+
+/// Throws IoError if `path` exists and is no regular file.
 void require_regular_file(const std::filesystem::path& path);
+
+/// Opens the file `path` for reading; if it is no regular file, the stream fails as if there were none.
+[[nodiscard]] std::ifstream open_regular_file(const std::filesystem::path& path);
 
 /// Returns the digest of the bytes of the file `path`. Throws IoError if the file cannot be read.
 [[nodiscard]] ContentHash::Digest hash_file(const std::filesystem::path& path);

@@ -105,7 +105,8 @@ Lock take_lock(int fd) {
     return errno == EWOULDBLOCK ? Lock::Held : Lock::Unknown;
 }
 
-constexpr int kOpenFlags = O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
+/// A pipe that somebody has made under such a name is nothing to wait for.
+constexpr int kOpenFlags = O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
 
 /// The open file if nobody else holds it, else -1. The kernel lets go of the files of the dead; where it knows no
 /// locks, only those are theirs that are old and `may_be_old`.
@@ -127,8 +128,8 @@ int create_unowned(const std::filesystem::path& path) {
     const int fd = ::open(path.c_str(), kOpenFlags | O_CREAT | O_EXCL, 0666);
     if (fd < 0 && errno == EEXIST) {
         const int left = open_unowned(path, false);
-        // It has gone since: another name is as good.
-        if (left < 0 && errno == ENOENT) errno = EWOULDBLOCK;
+        // It has gone since, or is a pipe: another name is as good.
+        if (left < 0 && (errno == ENOENT || errno == ENXIO)) errno = EWOULDBLOCK;
         return left;
     }
     // Somebody who looks for what is abandoned may have been faster with the lock.
@@ -230,6 +231,14 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
     write_bytes(path, std::as_bytes(std::span(text)));
+}
+
+void require_no_pipe(const std::filesystem::path& path) {
+    // What the process has opened already leads to no file that has a name.
+    std::error_code has_no_name;
+    (void)std::filesystem::canonical(path, has_no_name);
+    if (!has_no_name && (std::filesystem::is_fifo(path) || std::filesystem::is_socket(path)))
+        throw IoError(fmt::format("cannot write {}: it is a pipe or a socket, and a file is wanted", path.string()));
 }
 
 void remove_abandoned_files_of(const std::filesystem::path& path) {

@@ -27,6 +27,10 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 /// Writes `text` to the file `path` as `write_file` does.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
+/// Throws IoError if `path` names a pipe or a socket, since opening one waits for whoever reads it. What the process
+/// has opened already may be one, such as /dev/stdout.
+void require_no_pipe(const std::filesystem::path& path);
+
 /// Removes what killed writers of `path` on this host have left, for when it will not be written again. Without locks,
 /// only what is an hour old.
 void remove_abandoned_files_of(const std::filesystem::path& path);

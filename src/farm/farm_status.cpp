@@ -1,5 +1,6 @@
 #include "farm/farm_status.h"
 
+#include "core/content_hash.h"
 #include "picture/output_paths.h"
 #include "session/up_to_date.h"
 
@@ -138,7 +139,8 @@ std::vector<FarmImageStatus> farm_status(const fs::path& output, const TaskListe
 
 std::string last_lines(const fs::path& file, std::size_t count) {
     constexpr std::streamoff kMost = 4096;
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+    std::ifstream stream = open_regular_file(file);
+    stream.seekg(0, std::ios::end);
     if (!stream) return {};
     const std::streamoff size = stream.tellg();
     const std::streamoff length = std::min(size, kMost);

@@ -1,5 +1,6 @@
 #include "farm/submission.h"
 
+#include "core/content_hash.h"
 #include "core/error.h"
 #include "core/write_file.h"
 
@@ -60,7 +61,7 @@ SubmittedImage image_of(const json& entry, const fs::path& output) {
 
 Submission read_submission(const fs::path& directory) {
     Submission submission{directory, {}, {}};
-    std::ifstream stream(submission.file());
+    std::ifstream stream = open_regular_file(submission.file());
     try {
         const json document = json::parse(stream);
         submission.user = document.at("user").get<std::string>();
@@ -87,6 +88,7 @@ FileDescriptor lock_submissions(const fs::path& output) {
     const fs::path file = farm_directory(output) / "submitting";
     std::error_code error;
     fs::create_directories(file.parent_path(), error);
+    require_no_pipe(file);
     FileDescriptor opened(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
     if (!opened.is_open())
         throw IoError(fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno)));

@@ -1,6 +1,8 @@
 #include "image/exr_claims.h"
 
 #include "core/error.h"
+#include "core/refused_input.h"
+#include "image/read.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +21,14 @@ constexpr std::array<std::uint64_t, 11> kChunkLines{1, 1, 1, 16, 32, 16, 32, 32,
 constexpr std::uint64_t kMostChunkBytes = std::uint64_t{256} << 20;
 /// Deflated data may be this many times larger than their encoding.
 constexpr std::uint64_t kMostInflation = 1100;
+
+// Programs write some hundred attributes into a part at most. OpenImageIO looks through all of a part for each of them:
+// 60,000 take it 17 s, and as many as are allowed here a tenth of one at most.
+constexpr std::uint64_t kMostAttributesOfPart = 4096;
+/// In all parts: 16 for each of the most parts. Texts of a list count like attributes, of which each takes as much memory.
+constexpr std::uint64_t kMostAttributes = 65536;
+/// In all parts: as many as a file may have layers.
+constexpr std::uint64_t kMostListedChannels = 65536;
 
 std::uint64_t saturated_product(std::uint64_t a, std::uint64_t b) {
     std::uint64_t product = 0;
@@ -88,10 +98,24 @@ void read_window(ValueReader value, Part& part) {
     part.height = static_cast<std::uint64_t>(std::max<std::int64_t>(0, y1 - y0 + 1));
 }
 
+/// What is counted over all headers of a file.
+struct Counts {
+    std::uint64_t parts = 0;
+    std::uint64_t attributes = 0;
+    std::uint64_t attributes_of_part = 0;
+    std::uint64_t channels = 0;
+};
+
+/// Counts one more; throws RefusedInput if that is too many.
+void count_one(std::uint64_t& count, std::uint64_t most, std::string_view what) {
+    if (++count > most) throw RefusedInput(fmt::format("it has more than {} {}", most, what));
+}
+
 /// Names, each with a type, a flag, three bytes that are not used and two numbers.
-void read_channels(ValueReader value, Part& part) {
+void read_channels(ValueReader value, Part& part, Counts& counts) {
     constexpr std::uint32_t kHalf = 1;
     while (value.take_u8() != 0) {
+        count_one(counts.channels, kMostListedChannels, "channels");
         while (value.take_u8() != 0) {
         }
         part.pixel_bytes += value.take_u32() == kHalf ? 2 : 4;
@@ -99,8 +123,11 @@ void read_channels(ValueReader value, Part& part) {
     }
 }
 
-void check_strings(ValueReader value) {
-    while (value.left() > 0) value.skip(value.take_u32());
+void check_strings(ValueReader value, Counts& counts) {
+    while (value.left() > 0) {
+        count_one(counts.attributes, kMostAttributes, "attributes and texts in them");
+        value.skip(value.take_u32());
+    }
 }
 
 void check_preview(ValueReader value) {
@@ -114,13 +141,15 @@ void check_manifest(ValueReader value) {
     if (value.take_u32() > saturated_product(value.left(), kMostInflation)) value.fail();
 }
 
-void read_attribute(const ByteSource& source, const ExrAttribute& attribute, Part& part) {
+void read_attribute(const ByteSource& source, const ExrAttribute& attribute, Part& part, Counts& counts) {
+    count_one(counts.attributes_of_part, kMostAttributesOfPart, "attributes in one part");
+    count_one(counts.attributes, kMostAttributes, "attributes and texts in them");
     const auto is = [&](std::string_view name, std::string_view type) {
         return attribute.name == name && attribute.type == type;
     };
     const ValueReader value(source, attribute);
     if (is("dataWindow", "box2i")) read_window(value, part);
-    if (is("channels", "chlist")) read_channels(value, part);
+    if (is("channels", "chlist")) read_channels(value, part, counts);
     if (is("compression", "compression"))
         part.compression = std::min<std::size_t>(ValueReader(value).take_u8(), kChunkLines.size() - 1);
     if (is("chunkCount", "int")) part.chunk_count = ValueReader(value).take_i32();
@@ -130,7 +159,7 @@ void read_attribute(const ByteSource& source, const ExrAttribute& attribute, Par
         part.tile_height = tiles.take_u32();
         if (part.tile_width == 0 || part.tile_height == 0) throw IoError("the header claims tiles without pixels");
     }
-    if (attribute.type == "stringvector") check_strings(value);
+    if (attribute.type == "stringvector") check_strings(value, counts);
     if (attribute.type == "preview") check_preview(value);
     if (attribute.type == "idmanifest") check_manifest(value);
 }
@@ -161,11 +190,14 @@ void check_part(const Part& part, std::uint64_t size) {
 
 void check_exr_claims(const ByteSource& source, std::uint64_t size) {
     Part part;
+    Counts counts;
     walk_exr_headers(
-        source, size, [&](const ExrAttribute& attribute) { read_attribute(source, attribute, part); },
+        source, size, [&](const ExrAttribute& attribute) { read_attribute(source, attribute, part, counts); },
         [&] {
             check_part(part, size);
             part = {};
+            count_one(counts.parts, kMostParts, "parts");
+            counts.attributes_of_part = 0;
         });
 }
 

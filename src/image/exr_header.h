@@ -1,7 +1,8 @@
 // The headers of OpenEXR files, attribute by attribute, without OpenEXR.
 #pragma once
 
-#include <cstddef>
+#include "image/byte_source.h"
+
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -17,9 +18,6 @@ struct ExrAttribute {
     std::uint64_t value_begin = 0;
     std::uint64_t value_size = 0;
 };
-
-/// A file's bytes: fills as much of the span as there is from an offset on, and returns how many bytes that are.
-using ByteSource = std::function<std::size_t(std::uint64_t offset, std::span<std::uint8_t> bytes)>;
 
 /// Calls `visit` with the attributes of each header, of which there is one for each part, and `end_part` after the last
 /// of each. Throws IoError where a header is broken, is cut off or claims more bytes than the file has, which are

@@ -58,6 +58,9 @@ struct ImageInfo {
 /// before any memory is taken.
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 inline constexpr int kMaxImageSide = 65536;
+/// Parts of a multi-part EXR, or pages of a TIFF: more than any program writes. An EXR with more is refused, and of a
+/// TIFF no more are read.
+inline constexpr int kMostParts = 4096;
 
 /// Where encoded pixels come from: a file, or bytes in memory. PNG, JPEG, WebP, OpenEXR, Radiance HDR and TIFF are
 /// known, by their first bytes; of a multi-part file the first part is read, of an EXR layer set R, G, B and A.

@@ -19,6 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+char to_lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+}
+
 std::optional<int> hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -87,6 +91,12 @@ std::string without_accents(std::string_view name) {
     return plain;
 }
 
+/// True for names that differ in nothing but upper case and '\\' for '/'.
+bool is_same_on_windows(std::string_view a, std::string_view b) {
+    const auto plain = [](char c) { return c == '\\' ? '/' : to_lower(c); };
+    return std::ranges::equal(a, b, {}, plain, plain);
+}
+
 /// Suggests a file that exists in place of `name`, or returns nothing: names may differ by how an accent is encoded, by
 /// upper case, or by '\\' for '/'.
 std::string similar_file(const fs::path& root, std::string_view name) {
@@ -99,6 +109,7 @@ std::string similar_file(const fs::path& root, std::string_view name) {
         std::error_code ignored;
         if (!entry->is_regular_file(ignored)) continue;
         names.push_back(entry->path().lexically_relative(root).generic_string());
+        if (is_same_on_windows(names.back(), name)) return fmt::format("; did you mean '{}'?", shown(names.back()));
         const bool has_accents = without_accents(name).size() < name.size();
         if (has_accents && without_accents(names.back()) == without_accents(name))
             return fmt::format("; there is '{}', which may look the same: its letters are encoded another way",
@@ -118,8 +129,7 @@ bool is_inside(const fs::path& directory, const fs::path& file) {
 
 std::string lower_extension(const fs::path& file) {
     std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+    std::ranges::transform(extension, extension.begin(), to_lower);
     return extension;
 }
 
@@ -130,7 +140,7 @@ fs::path resolve_name(const fs::path& directory, std::string_view name) {
     if (code) throw IoError("the scene directory cannot be read: " + code.message());
     fs::path file = fs::weakly_canonical(root / fs::path(name), code);
     if (code) throw IoError("the file cannot be reached: " + code.message());
-    if (!is_inside(root, file)) throw RefusedInput("a symbolic link leads out of the scene directory");
+    if (file != root && !is_inside(root, file)) throw RefusedInput("a symbolic link leads out of the scene directory");
 
     const fs::file_status status = fs::status(file, code);
     if (!fs::exists(status)) throw IoError("the file does not exist in the scene directory" + similar_file(root, name));

@@ -1,6 +1,7 @@
 #include "picture/output_paths.h"
 
 #include "core/error.h"
+#include "core/write_file.h"
 
 #include <cstdint>
 #include <map>
@@ -51,11 +52,7 @@ void require_writable(const std::filesystem::path& file) {
         throw IoError(fmt::format("cannot write {}: there is no directory {}", file.string(), directory.string()));
     if (std::filesystem::is_directory(file))
         throw IoError(fmt::format("cannot write {}: it is a directory", file.string()));
-    // What the process has opened already, such as /dev/stdout, leads to no file that has a name.
-    std::error_code has_no_name;
-    (void)std::filesystem::canonical(file, has_no_name);
-    if (!has_no_name && (std::filesystem::is_fifo(file) || std::filesystem::is_socket(file)))
-        throw IoError(fmt::format("cannot write {}: it is a pipe or a socket, and a file is wanted", file.string()));
+    require_no_pipe(file);
     if (access(directory.c_str(), W_OK | X_OK) != 0)
         throw IoError(fmt::format("cannot write {}: {} is not writable", file.string(), directory.string()));
 }

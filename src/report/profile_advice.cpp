@@ -142,10 +142,12 @@ class Adviser {
                 human_percent(run_.bsdf_absorbed), human_percent(material)));
     }
 
-    [[nodiscard]] static std::string most_of(const std::vector<NamedValue>& hits) {
-        if (hits.size() < 2) return "";
-        return fmt::format("; '{}' has about {} of the hits", hits.front().name,
-                           rough_percent(rate(hits.front().value, sum_of(hits))));
+    [[nodiscard]] static std::string most_of(const std::vector<HitsReport>& met) {
+        if (met.size() < 2) return "";
+        double all = 0.0;
+        for (const HitsReport& one : met) all += one.seconds;
+        return fmt::format("; '{}' takes about {} of that", met.front().name,
+                           rough_percent(rate(met.front().seconds, all)));
     }
 
     void long_paths() {

@@ -30,6 +30,13 @@ class ProfileCsv {
         for (const NamedValue& value : values) line(run, part, value.name, value.value, unit);
     }
 
+    void lines(const ProfileRun& run, const char* part, const std::vector<HitsReport>& met) {
+        for (const HitsReport& one : met) {
+            line(run, part, one.name, one.hits, "hits");
+            line(run, part, one.name, one.seconds, "thread s");
+        }
+    }
+
     void add(const ProfileRun& run) {
         for (std::size_t i = 0; i < run.seconds.size(); ++i) {
             line(run, "repetition", fmt::format("{}", i + 1), run.seconds[i], "s");
@@ -52,12 +59,13 @@ class ProfileCsv {
         lines(run, "stage", run.stages, "thread s");
         lines(run, "ending", run.eye_paths.endings, "paths");
         lines(run, "light ending", run.light_paths.endings, "paths");
-        lines(run, "material", run.scene_hits.materials, "hits");
-        lines(run, "object", run.scene_hits.objects, "hits");
-        lines(run, "texture", run.scene_hits.textures, "hits");
+        lines(run, "material", run.scene_hits.materials);
+        lines(run, "object", run.scene_hits.objects);
+        lines(run, "texture", run.scene_hits.textures);
         for (const LampReport& lamp : run.scene_hits.lamps) {
             line(run, "lamp", lamp.name, lamp.shadow_rays, "shadow rays");
             line(run, "lamp", lamp.name, lamp.blocked, "blocked");
+            line(run, "lamp", lamp.name, lamp.seconds, "thread s");
         }
     }
 

@@ -50,6 +50,7 @@ Json to_object(const RayKindReport& kind);
 Json to_object(const TileReport& tile);
 Json to_object(const TileCost& tile);
 Json to_object(const LampReport& lamp);
+Json to_object(const HitsReport& met);
 Json to_object(const EarlierRun& run);
 Json to_object(const EarlierProfile& profile);
 Json to_object(const LongPathReport& path);
@@ -101,7 +102,14 @@ Json to_object(const TileCost& tile) {
 }
 
 Json to_object(const LampReport& lamp) {
-    return {{"name", lamp.name}, {"shadow_rays", std::round(lamp.shadow_rays)}, {"blocked", std::round(lamp.blocked)}};
+    return {{"name", lamp.name},
+            {"shadow_rays", std::round(lamp.shadow_rays)},
+            {"blocked", std::round(lamp.blocked)},
+            {"seconds", lamp.seconds}};
+}
+
+Json to_object(const HitsReport& met) {
+    return {{"name", met.name}, {"hits", std::round(met.hits)}, {"seconds", met.seconds}};
 }
 
 Json to_object(const EarlierRun& run) {
@@ -118,9 +126,9 @@ Json to_object(const EarlierProfile& profile) {
 }
 
 Json to_object(const SceneHitsReport& hits) {
-    return {{"materials", counted(hits.materials, "hits")},
-            {"objects", counted(hits.objects, "hits")},
-            {"textures", counted(hits.textures, "hits")},
+    return {{"materials", array_of(hits.materials)},
+            {"objects", array_of(hits.objects)},
+            {"textures", array_of(hits.textures)},
             {"lamps", array_of(hits.lamps)}};
 }
 

@@ -45,14 +45,22 @@ struct LampReport {
     std::string name{};
     double shadow_rays = 0.0;
     double blocked = 0.0;  ///< shadow rays of these that met something before
+    double seconds = 0.0;  ///< seconds of all threads in which they were traced
 };
 
-/// Counts what rays met, by names of the scene, the most first; these are estimates from the rays that were recorded.
-/// Times have no such shares, as paths of many materials are traced together.
+/// Holds what rays met under one name of the scene.
+struct HitsReport {
+    std::string name{};
+    double hits = 0.0;
+    double seconds = 0.0;  ///< seconds of all threads that they took
+};
+
+/// Holds what rays met, by names of the scene, what takes the most time first; these are estimates from the rays that
+/// were recorded.
 struct SceneHitsReport {
-    std::vector<NamedValue> materials{};
-    std::vector<NamedValue> objects{};
-    std::vector<NamedValue> textures{};  ///< hits on materials that name the image
+    std::vector<HitsReport> materials{};  ///< seconds of set-up, textures and lobes
+    std::vector<HitsReport> objects{};    ///< the same seconds, and those of the rays that met the object
+    std::vector<HitsReport> textures{};   ///< hits on materials that name the image; seconds of textures
     std::vector<LampReport> lamps{};
 };
 

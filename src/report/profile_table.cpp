@@ -125,14 +125,15 @@ std::string hardware(const ProfileRun& run) {
     return wrapped("  hardware counters: " + counts, kIndent + 2);
 }
 
-std::string hits(const SceneHitsReport& report) {
+/// Says which share of the time of all threads, `all` seconds, goes to what.
+std::string hits(const SceneHitsReport& report, double all) {
     std::string text;
-    const auto add = [&text](const char* title, const std::vector<NamedValue>& values) {
+    const auto add = [&text, all](const char* title, const std::vector<HitsReport>& met) {
         std::string names;
-        for (std::size_t i = 0; i < std::min(kNamesInTable, values.size()); ++i)
-            names += fmt::format("{}{} {}", names.empty() ? "" : "; ", values[i].name,
-                                 rough_percent(rate(values[i].value, sum_of(values))));
-        if (!names.empty()) text += wrapped(fmt::format("  hits by {}, about: {}", title, names), kIndent + 2);
+        for (std::size_t i = 0; i < std::min(kNamesInTable, met.size()); ++i)
+            names += fmt::format("{}{} {}", names.empty() ? "" : "; ", met[i].name,
+                                 rough_percent(rate(met[i].seconds, all)));
+        if (!names.empty()) text += wrapped(fmt::format("  time by {}, about: {}", title, names), kIndent + 2);
     };
     add("material", report.materials);
     add("object", report.objects);
@@ -158,8 +159,8 @@ std::string run_text(const ProfileRun& run) {
     std::string text = fmt::format("\n{}, {} thread{}\n", run.integrator, run.threads, run.threads == 1 ? "" : "s");
     if (!run.kinds.empty()) text += rays(run) + '\n';
     if (!run.stages.empty()) text += stages(run) + '\n';
-    return text + shares(run) + '\n' + paths(run) + expensive_tiles(run) + hits(run.scene_hits) + hardware(run) +
-           listed("what takes the time", costs(run)) + listed("what to change", advice(run));
+    return text + shares(run) + '\n' + paths(run) + expensive_tiles(run) + hits(run.scene_hits, sum_of(run.stages)) +
+           hardware(run) + listed("what takes the time", costs(run)) + listed("what to change", advice(run));
 }
 
 std::string phases(const ProfileReport& report) {

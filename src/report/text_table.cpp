@@ -53,8 +53,9 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 }
 
 std::string wrapped(const std::string& text, std::size_t indent) {
+    const std::string shown = shown_text(text);
     std::string lines;
-    std::string_view rest = text;
+    std::string_view rest = shown;
     std::size_t room = kMostColumns;
     while (width_of(rest) > room) {
         const std::size_t most = bytes_of(rest, room);

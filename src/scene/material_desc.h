@@ -21,6 +21,10 @@ enum class AlphaMode { Opaque, Mask, Blend };
 /// The metals whose measured complex index of refraction is known.
 inline constexpr std::array<std::string_view, 8> kMetalNames{"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ti", "W"};
 
+/// Is the most that Henyey and Greenstein's g may be, without its sign: beyond, light that is scattered is not told
+/// apart from light that is not.
+inline constexpr float kMostAnisotropic = 0.999f;
+
 /// A metal, by its measured complex index of refraction.
 struct ConductorDesc {
     std::string metal;       ///< one of kMetalNames; empty for a lossless mirror
@@ -34,7 +38,7 @@ struct VolumeDesc {
     float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres, > 0
     float dispersion = 0.0f;                                              ///< 20 over the Abbe number, >= 0
     Rgb multiscatter_color{0.0f};     ///< linear Rec.709, [0, 1]: the body's colour by many scatterings; black is none
-    float scatter_anisotropy = 0.0f;  ///< Henyey and Greenstein's g, (-1, 1)
+    float scatter_anisotropy = 0.0f;  ///< Henyey and Greenstein's g, up to kMostAnisotropic to either side
     /// Where bodies overlap, the one with the higher priority fills the space; among equals, the smaller one.
     int priority = 0;
 };
@@ -56,7 +60,7 @@ struct DiffuseDesc {
 struct SubsurfaceDesc {
     Rgb albedo{0.8f};                    ///< colour that a large body reflects, linear Rec.709, [0, 1]
     Rgb radius{0.01f, 0.005f, 0.0025f};  ///< mean free path per channel of the working space, metres, > 0
-    float anisotropy = 0.0f;             ///< Henyey and Greenstein's g, (-1, 1)
+    float anisotropy = 0.0f;             ///< Henyey and Greenstein's g, up to kMostAnisotropic to either side
     float ior = 1.4f;                    ///< index of the reflecting surface, [1, 3]
     float roughness = 0.5f;              ///< roughness of the reflecting surface, [0, 1]
     int priority = 0;                    ///< as of VolumeDesc

@@ -51,9 +51,7 @@ bool accepts(const WholeNumber& type, std::int64_t number) {
 }
 
 bool accepts(const RealNumber& type, double number) {
-    // Rounding must not carry a number across the end of a range.
-    return std::isfinite(number) && type.range.contains(number) &&
-           (!type.is_single || type.range.contains(static_cast<double>(static_cast<float>(number))));
+    return std::isfinite(number) && (type.is_single ? type.range.contains_single(number) : type.range.contains(number));
 }
 
 template <typename Number, typename Value>
@@ -119,6 +117,12 @@ std::string option_numbers(const std::vector<Value>& numbers, const Numbers<Numb
 
 bool NumberRange::contains(double value) const {
     return (open_min ? value > min : value >= min) && (open_max ? value < max : value <= max);
+}
+
+bool NumberRange::contains_single(double value) const {
+    const auto rounded = [](double number) { return static_cast<double>(static_cast<float>(number)); };
+    const NumberRange single{rounded(min), rounded(max), open_min, open_max};
+    return single.contains(rounded(value));
 }
 
 std::string NumberRange::str() const {

@@ -31,6 +31,8 @@ struct NumberRange {
     [[nodiscard]] bool has_min() const { return min > -std::numeric_limits<float>::max(); }
     [[nodiscard]] bool has_max() const { return max < std::numeric_limits<float>::max(); }
     [[nodiscard]] bool contains(double value) const;
+    /// Returns whether it has `value` in single precision, in which its ends are rounded as well.
+    [[nodiscard]] bool contains_single(double value) const;
     /// Returns "a number in (0, 3]" or "a number >= 0".
     [[nodiscard]] std::string str() const;
 };

@@ -9,8 +9,11 @@ namespace etendue {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Beyond, light that is scattered is not told apart from light that is not.
-constexpr double kMostAnisotropic = 0.999;
+
+void check_anisotropy(float value, std::string_view what, const SourceLocation& where, ProblemList& problems) {
+    constexpr auto kMost = static_cast<double>(kMostAnisotropic);
+    check_range(static_cast<double>(value), -kMost, kMost, what, where, problems);
+}
 
 void validate_texture_ref(const TextureRef& ref, std::string_view slot, const SceneDesc& scene,
                           const SourceLocation& where, ProblemList& problems) {
@@ -42,8 +45,7 @@ void validate_volume(const VolumeDesc& volume, const SourceLocation& where, Prob
                        fmt::format("attenuation distance is {}, but must be above 0", volume.attenuation_distance));
     check_range(static_cast<double>(volume.dispersion), 0.0, kInfinity, "dispersion", where, problems);
     check_range(volume.multiscatter_color, 0.0, 1.0, "multiscatter colour", where, problems);
-    check_range(static_cast<double>(volume.scatter_anisotropy), -kMostAnisotropic, kMostAnisotropic,
-                "scatter anisotropy", where, problems);
+    check_anisotropy(volume.scatter_anisotropy, "scatter anisotropy", where, problems);
 }
 
 void validate_override(const DielectricDesc& model, const SourceLocation& where, ProblemList& problems) {
@@ -63,8 +65,7 @@ void validate_override(const SubsurfaceDesc& model, const SourceLocation& where,
     check_range(model.albedo, 0.0, 1.0, "albedo", where, problems);
     check_range(model.radius, 0.0, kInfinity, "radius", where, problems);
     if (!(min_component(model.radius) > 0.0f)) problems.error(where, "radius must be above 0 in every channel");
-    check_range(static_cast<double>(model.anisotropy), -kMostAnisotropic, kMostAnisotropic, "anisotropy", where,
-                problems);
+    check_anisotropy(model.anisotropy, "anisotropy", where, problems);
     check_range(static_cast<double>(model.ior), 1.0, 3.0, "ior", where, problems);
     check_range(static_cast<double>(model.roughness), 0.0, 1.0, "roughness", where, problems);
 }

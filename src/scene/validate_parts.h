@@ -40,9 +40,9 @@ inline void check_range(double value, double low, double high, std::string_view 
                         ProblemList& problems) {
     if (std::isfinite(value) && value >= low && value <= high) return;
     if (std::isfinite(high)) {
-        problems.error(where, fmt::format("{} is {}, but must be in [{}, {}]", what, value, low, high));
+        problems.error(where, fmt::format("{} is {}, but must be in [{:g}, {:g}]", what, value, low, high));
     } else {
-        problems.error(where, fmt::format("{} is {}, but must be finite and at least {}", what, value, low));
+        problems.error(where, fmt::format("{} is {}, but must be finite and at least {:g}", what, value, low));
     }
 }
 

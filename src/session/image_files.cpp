@@ -1,5 +1,6 @@
 #include "session/image_files.h"
 
+#include "core/content_hash.h"
 #include "core/log.h"
 #include "core/write_file.h"
 #include "image/finite.h"
@@ -85,7 +86,7 @@ std::map<int, std::filesystem::path> frames_before(const std::filesystem::path& 
 std::optional<float> exposure_of_sequence(const std::filesystem::path& statistics, int frame,
                                           const std::string& scene) {
     for (const auto& [number, path] : frames_before(statistics, frame)) {
-        std::ifstream file(path);
+        std::ifstream file = open_regular_file(path);
         const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
         if (!json.is_object() || !json.contains("exposure") || json.value("scene", nlohmann::json()) != scene) continue;
         const nlohmann::json& exposure = json.at("exposure");
@@ -146,7 +147,7 @@ std::optional<IntegratorChoice> choice_of_sequence(const std::filesystem::path& 
     if (!statistics.frame) return std::nullopt;
     const nlohmann::json own = nlohmann::json::parse(to_json(statistics), nullptr, false);
     for (const auto& [number, path] : frames_before(file, *statistics.frame)) {
-        std::ifstream in(path);
+        std::ifstream in = open_regular_file(path);
         const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
         if (json.is_object() && has_same_choice(json, own)) {
             const auto integrator = json.at("integrator").get<std::string>();

@@ -48,8 +48,6 @@ void install_interrupt_handlers() {
     std::signal(SIGUSR1, on_preview_signal);
     // A parent that ignores SIGCHLD passes that on, and then no child could be waited for.
     std::signal(SIGCHLD, SIG_DFL);
-    // A file that would pass the limit of file sizes (ulimit -f) is an error of writing, which says so.
-    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void take_all_interrupts_for_one() {

@@ -1,5 +1,6 @@
 #include "session/up_to_date.h"
 
+#include "core/content_hash.h"
 #include "output/input_file_json.h"
 #include "render/render.h"
 #include "scene/canonical_settings.h"
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 
 /// The statistics beside an image; an unreadable or foreign file is no reason to fail, it is no object then.
 nlohmann::json read_statistics(const fs::path& json_file) {
-    std::ifstream in(json_file);
+    std::ifstream in = open_regular_file(json_file);
     return nlohmann::json::parse(in, nullptr, false);
 }
 
@@ -192,7 +193,7 @@ std::optional<Staleness> why_unfinished(const OutputPaths& output) {
 
 bool is_whole_png(const fs::path& file) {
     constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
-    std::ifstream in(file, std::ios::binary);
+    std::ifstream in = open_regular_file(file);
     in.seekg(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);
     std::string end(kEnd.size(), ' ');
     return in.read(end.data(), static_cast<std::streamsize>(end.size())) && end == kEnd;

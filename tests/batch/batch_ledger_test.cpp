@@ -5,6 +5,7 @@
 #include "program/small_files.h"
 #include "support/file_calls.h"
 
+#include <csignal>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -13,6 +14,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -136,9 +139,34 @@ TEST_F(Ledger, ManyWritersDoNotMixTheirLines) {
     for (const std::string& line : lines) EXPECT_TRUE(json::accept(line)) << line;
 }
 
-TEST_F(Ledger, AFullDiskIsAnError) {
-    EXPECT_THROW(BatchLedger("/dev/full").append({.unit = "one"}), IoError);
+TEST_F(Ledger, AFullDiskIsAnErrorAndNothingIsAppended) {
+    append(LedgerEventKind::UnitFinished, "one");
+    const std::string before = read_file(path_);
+    const pid_t pid = run_forked([&] {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{before.size() + 10, before.size() + 10};
+        if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) return 1;
+        try {
+            append(LedgerEventKind::UnitFinished, "two");
+        } catch (const IoError&) {
+            return 0;
+        }
+        return 2;
+    });
+    int status = 0;
+    waitpid(pid, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(read_file(path_), before);
     EXPECT_THROW(BatchLedger(folder_ / "no/ledger.jsonl").append({.unit = "one"}), IoError);
+}
+
+TEST_F(Ledger, ThatIsNoFileIsAnErrorAndNothingToWaitFor) {
+    ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+    EXPECT_THROW(history_.read_new(), IoError);
+    const std::string more_than_a_pipe_holds(200'000, 'x');
+    EXPECT_THROW(append(LedgerEventKind::UnitFinished, more_than_a_pipe_holds), IoError);
+    EXPECT_THROW(LedgerHistory("/dev/zero").read_new(), IoError) << "it has no end";
+    EXPECT_THROW(BatchLedger("/dev/zero").append({.unit = "one"}), IoError);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -143,6 +144,18 @@ TEST_F(BatchLockTest, ThatSaysNothingIsNobodysOnceItIsOld) {
         EXPECT_TRUE(locks_.take("box").lock) << text;
         let_somebody_die("box");
     }
+}
+
+TEST_F(BatchLockTest, ThatIsAPipeIsNobodysAndNothingToWaitFor) {
+    let_somebody_die("box");
+    const fs::path file = lock_file();
+    fs::remove(file);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    EXPECT_FALSE(locks_.find_holder("box"));
+    EXPECT_TRUE(locks_.take("box").lock);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    locks_.tidy();
+    EXPECT_TRUE(list(folder_.path()).empty());
 }
 
 TEST_F(BatchLockTest, IsTouchedAndTellsWhenItIsLost) {

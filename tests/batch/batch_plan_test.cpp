@@ -1,5 +1,7 @@
 #include "batch/batch_plan.h"
 
+#include "batch/batch_child.h"
+#include "batch/batch_statistics.h"
 #include "program/small_files.h"
 #include "session/input_files.h"
 #include "session/prepared_scene.h"
@@ -10,6 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace etendue::test {
 
@@ -215,6 +218,16 @@ TEST_F(BatchPlanTest, TellsWhatWillFailAndWhatIsNotKnown) {
     EXPECT_TRUE(all["estimated_seconds"].is_null());
     EXPECT_EQ(all["units"][0]["camera"], "front");
     EXPECT_EQ(all["units"][2]["error"], plan[2].error);
+    plan[0].outline.integrator = "path\nerror: fake";
+    EXPECT_NE(to_table(plan).find("path\\x0aerror: fake"), std::string::npos) << to_table(plan);
+}
+
+TEST_F(BatchPlanTest, StatisticsThatAreAPipeAreUnknownAndNothingToWaitFor) {
+    ASSERT_EQ(::mkfifo((folder_ / "box.json").c_str(), 0600), 0);
+    BatchUnit unit;
+    read_statistics(folder_ / "box.json", unit);
+    EXPECT_FALSE(unit.seconds);
+    EXPECT_TRUE(display_arguments(folder_ / "box.json").empty());
 }
 
 TEST_F(BatchPlanTest, IsArranged) {

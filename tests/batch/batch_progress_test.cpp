@@ -1,15 +1,20 @@
 #include "batch/batch_progress.h"
 
+#include "core/error.h"
 #include "program/small_files.h"
 #include "session/usage_error.h"
 
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <optional>
 #include <regex>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace etendue::test {
 
@@ -155,6 +160,23 @@ TEST(BatchLog, HasEveryLineWithItsTime) {
                            R"((.{19}  )\[1/3\] box: 43%  .* elapsed, 1:00 left, ends .*\n.{19}  again\n)");
     EXPECT_TRUE(std::regex_match(log, lines)) << log;
     EXPECT_THROW(BatchProgress(true, folder / "no/log"), UsageError);
+}
+
+TEST(BatchLog, MayBeADeviceAndNoPipe) {
+    const TestFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "log").c_str(), 0600), 0);
+    EXPECT_THROW(BatchProgress(true, folder / "log"), IoError);
+    EXPECT_NO_THROW(BatchProgress(true, "/dev/null").say("nobody reads it"));
+}
+
+// As "--log /dev/stdout" where that is a pipe to another program.
+TEST(BatchLog, MayBeAPipeThatIsOpen) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    BatchProgress(true, fmt::format("/dev/fd/{}", ends[1])).say("again");
+    std::array<char, 100> text{};
+    EXPECT_GT(::read(ends[0], text.data(), text.size()), 0);
+    for (const int end : ends) ::close(end);
 }
 
 }  // namespace

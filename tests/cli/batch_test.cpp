@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace etendue::test {
@@ -1010,6 +1011,37 @@ TEST_F(Batch, ADirectoryThatCannotBeWrittenIsAnErrorBeforeAnythingStarts) {
     EXPECT_EQ(system.exit_code, 1);
     EXPECT_NE(system.err.find("error: cannot"), std::string::npos) << system.err;
     EXPECT_EQ(system.err.find("rendered"), std::string::npos) << system.err;
+}
+
+TEST_F(Batch, ALedgerThatIsNoFileIsAnErrorAtOnce) {
+    add_scene("a");
+    fs::create_directories(work_ / "out");
+    const fs::path ledger = work_ / "out/ledger.jsonl";
+    for (const std::string device : {"/dev/full", "/dev/zero", "a pipe"}) {
+        fs::remove(ledger);
+        if (device.starts_with('/'))
+            fs::create_symlink(device, ledger);
+        else
+            ASSERT_EQ(::mkfifo(ledger.c_str(), 0600), 0);
+        for (const Names& more : {Names{}, Names{"--failed"}, Names{"--dry-run"}, Names{"--in-process"}}) {
+            const ProgramResult result = run(more);
+            EXPECT_EQ(result.exit_code, 1) << device;
+            EXPECT_NE(result.err.find("out/ledger.jsonl: it is no regular file"), std::string::npos) << result.err;
+        }
+    }
+    EXPECT_EQ(list(work_ / "out"), Names{"ledger.jsonl"});
+}
+
+TEST_F(Batch, StatisticsThatAreAPipeFailTheirImageOnly) {
+    add_scene("a");
+    add_scene("b");
+    ASSERT_EQ(run().exit_code, 0);
+    fs::remove(work_ / "out/a.json");
+    ASSERT_EQ(::mkfifo((work_ / "out/a.json").c_str(), 0600), 0);
+    const ProgramResult result = run();
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("a.json: it is a pipe or a socket"), std::string::npos) << result.err;
+    EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["totals"]["up_to_date"], 1);
 }
 
 TEST_F(Batch, ATornLedgerIsGoneOnWith) {

@@ -195,6 +195,17 @@ TEST_F(CommandLine, WhatCannotBePrintedIsAnError) {
         }
 }
 
+TEST_F(CommandLine, AFileThatMayNotGrowIsAnErrorAndNoSignal) {
+    for (const auto& [command, code] :
+         {std::pair{"--help > out 2> /dev/null", 1}, std::pair{"render --help > out 2> /dev/null", 1},
+          std::pair{"--bogus 2> out", 2}, std::pair{"denoise nope -o d.exr 2> out", 2}}) {
+        const int status = std::system(fmt::format("cd '{}' && bash -c \"ulimit -f 0 && exec '{}' {}\"", work_.string(),
+                                                   program_file().string(), command)
+                                           .c_str());
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == code) << command << ": " << status;
+    }
+}
+
 TEST_F(CommandLine, NamesFromFilesDoNothingToTheTerminal) {
     const fs::path box = scene("box");
     json scene = json::parse(read_file(box / "scene.gltf"));
@@ -221,6 +232,14 @@ TEST_F(CommandLine, NamesFromFilesDoNothingToTheTerminal) {
     const ProgramResult planned = run({"batch", "--dry-run", "--no-probe", "-o", "out", scenes()});
     EXPECT_EQ(planned.exit_code, 0);
     expect_harmless(planned.out + planned.err);
+    const std::string typed = this->scene("typed", R"("integrator": {"type": "path\nerror: fake"},)");
+    for (const std::vector<std::string>& arguments :
+         {Names{"inspect", typed}, Names{"batch", "--dry-run", "--no-probe", "-o", "out", typed}}) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 3) << result.err;
+        expect_harmless(result.out + result.err);
+        EXPECT_NE(result.out.find("path\\x0aerror: fake"), std::string::npos) << result.out;
+    }
 }
 
 TEST_F(CommandLine, FilesHaveTheDateOfTheEnvironment) {
@@ -478,7 +497,7 @@ TEST_F(CommandLine, PipesAreNoOutputs) {
     const std::string box = scene("box");
     const fs::path pipes = folder_ / "pipes";
     fs::create_directories(pipes);
-    for (const char* name : {"a.exr", "b.png", "c.json", "d.partial", "report.json", "profile.json"})
+    for (const char* name : {"a.exr", "b.png", "c.json", "d.partial", "report.json", "profile.json", "night.log"})
         ASSERT_EQ(::mkfifo((pipes / name).c_str(), 0600), 0);
     const auto expect_refused = [&](const std::vector<std::string>& words, const char* pipe) {
         const ProgramResult result = run(words);
@@ -489,6 +508,7 @@ TEST_F(CommandLine, PipesAreNoOutputs) {
                                        std::pair{"c.exr", "c.json"}, std::pair{"d.partial", "d.partial"}})
         expect_refused({"render", box, "--spp", "1000000", "-o", pipes / output}, pipe);
     expect_refused({"batch", box, "--spp", "1000000", "-o", pipes}, "report.json");
+    expect_refused({"batch", box, "--spp", "1000000", "-o", "out", "--log", pipes / "night.log"}, "night.log");
     expect_refused({"compare", box, "--spp", "1000000", "-o", pipes}, "report.json");
     expect_refused({"profile", box, "--spp", "1000000", "-o", pipes}, "profile.json");
     ASSERT_EQ(run({"render", box, "--quiet", "-o", "image.exr"}).exit_code, 0);

@@ -340,6 +340,14 @@ TEST_F(Diff, CropWindowsAreComparedWhereTheyOverlap) {
     EXPECT_TRUE(contains(apart.err, "no pixel in common")) << apart.err;
 }
 
+TEST_F(Diff, TheNameOfAMapBeginsNoLine) {
+    const std::string a = exr("a", ramp(20, 10, 0.1f));
+    const std::string b = exr("b", ramp(20, 10, 0.11f));
+    const ProgramResult result = diff({a, b, "--metric", "mse", "--map", "m\nerror: fake.png"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "m\\x0aerror: fake.png: mse")) << result.out;
+}
+
 TEST_F(Diff, MeasuresAreNotLostWithAMapThatCannotBeWritten) {
     const std::string a = exr("a", ramp(20, 10, 0.1f));
     fs::create_symlink("/dev/full", work_ / "map.png");

@@ -89,8 +89,15 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     for (const json& kind : report["runs"][0]["kinds"]) {
         if (kind["kind"] == "shadow") {
             EXPECT_EQ(hits["lamps"][0]["shadow_rays"], kind["rays"]);
+            EXPECT_NEAR(hits["lamps"][0]["seconds"], kind["seconds"].get<double>(), 1e-9);
         }
     }
+    double shading = 0.0;
+    for (const json& stage : report["runs"][0]["stages"])
+        for (const char* name : {"hit set-up", "textures", "material evaluation"})
+            if (stage["name"] == name) shading += stage["seconds"].get<double>();
+    EXPECT_NEAR(hits["materials"][0]["seconds"], shading, 1e-6) << "the only material takes all of it";
+    EXPECT_GT(hits["objects"][0]["seconds"], hits["materials"][0]["seconds"]) << "rays to it are traced, too";
     EXPECT_GT(report["load"]["first_pixel_seconds"], 0.0);
     Names phases;
     for (const json& phase : report["load"]["phases"]) {

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace etendue::test {
 
@@ -458,6 +459,20 @@ TEST_F(Submit, DamagedRecordsAreNamed) {
         EXPECT_NE(result.err.find((directory / "submission.json").string() + " cannot be read"), std::string::npos)
             << result.err;
     }
+}
+
+TEST_F(Submit, RecordsThatArePipesAreErrorsAtOnce) {
+    scene("a");
+    const fs::path directory = out() / ".etendue/submit-20260101-000000-abcdef";
+    fs::create_directories(directory);
+    ASSERT_EQ(::mkfifo((directory / "submission.json").c_str(), 0600), 0);
+    EXPECT_EQ(run_etendue({"submit", "--status", out().string()}, work_).exit_code, 1);
+    EXPECT_EQ(submit(small_).exit_code, 1);
+    fs::remove_all(directory);
+    ASSERT_EQ(::mkfifo((out() / ".etendue/submitting").c_str(), 0600), 0);
+    const ProgramResult result = submit(small_);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("submitting: it is a pipe"), std::string::npos) << result.err;
 }
 
 TEST_F(Submit, BadOptionsEndWithTwo) {

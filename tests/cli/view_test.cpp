@@ -8,6 +8,7 @@
 #include "support/text.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -137,6 +138,20 @@ TEST_F(View, ListsWhatThereIs) {
     EXPECT_EQ(listed["file"]["layers"][1]["name"], "N");
     EXPECT_EQ(listed["file"]["default_layer"], "");
     EXPECT_TRUE(json::parse(run({"view", "--list", "--json"}).out)["file"].is_null());
+}
+
+TEST_F(View, TheNameOfTheConfigBeginsNoLine) {
+    const fs::path config = work_ / "c\nerror: fake.ocio";
+    write_file(config,
+               "ocio_profile_version: 2\nsearch_path: .\nroles: {scene_linear: ref, default: ref}\n"
+               "file_rules:\n  - !<Rule> {name: Default, colorspace: ref}\n"
+               "displays:\n  d:\n    - !<View> {name: v, colorspace: ref}\n"
+               "colorspaces:\n  - !<ColorSpace> {name: ref}\n");
+    ::setenv("OCIO", config.c_str(), 1);
+    const ProgramResult result = run({"view", "--list"});
+    ::unsetenv("OCIO");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "c\\x0aerror: fake.ocio\n")) << result.out;
 }
 
 TEST_F(View, SaysWhatIsWrong) {

@@ -5,9 +5,11 @@
 #include "support/temporary_folder.h"
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace etendue {
 
@@ -38,6 +40,22 @@ TEST(HashFile, IsThatOfTheBytes) {
     write_text(folder / "file", text);
     EXPECT_EQ(hash_file(folder / "file"), hash_of(text, text.size()));
     EXPECT_THROW((void)hash_file(folder / "missing"), IoError);
+}
+
+TEST(RegularFile, IsAllThatIsRead) {
+    const TemporaryFolder folder;
+    write_text(folder / "file", "text");
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    std::string word;
+    EXPECT_TRUE(open_regular_file(folder / "file") >> word);
+    EXPECT_EQ(word, "text");
+    for (const std::filesystem::path& other : {folder / "pipe", std::filesystem::path("/dev/zero")}) {
+        EXPECT_FALSE(open_regular_file(other)) << other;
+        EXPECT_THROW(require_regular_file(other), IoError) << other;
+        EXPECT_THROW((void)hash_file(other), IoError) << other;
+    }
+    EXPECT_FALSE(open_regular_file(folder / "missing"));
+    EXPECT_NO_THROW(require_regular_file(folder / "missing"));
 }
 
 }  // namespace

@@ -202,6 +202,16 @@ TEST(WriteFile, TakesOverWhatAKilledWriterLeft) {
     EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(WriteFile, APipeUnderItsTemporaryNameIsNothingToWaitFor) {
+    const TemporaryFolder folder;
+    const auto left = temporary_of(folder, "a");
+    ASSERT_EQ(::mkfifo(left.c_str(), 0600), 0);
+    write_text(folder / "a", "text");
+    EXPECT_EQ(text_of(folder / "a"), "text");
+    remove_abandoned_files_of(folder / "a");
+    EXPECT_TRUE(std::filesystem::is_fifo(left)) << "another program's";
+}
+
 TEST(WriteFile, TwoWritersOfOneFileDoNotMixTheirBytes) {
     const TemporaryFolder folder;
     write_file(folder / "a", [&](const ByteSink& sink) {

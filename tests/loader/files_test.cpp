@@ -61,6 +61,10 @@ TEST(ResolveUri, SaysWhatMayHaveBeenMeant) {
         "x");  // decomposed, as on a Mac
     EXPECT_NE(refusal(dir.path(), "sub\\Wood.png").find("did you mean 'sub/Wood.png'"), std::string::npos);
     EXPECT_NE(refusal(dir.path(), "sub/wood.png").find("did you mean 'sub/Wood.png'"), std::string::npos);
+    EXPECT_NE(refusal(dir.path(), "SUB\\WOOD.PNG").find("did you mean 'sub/Wood.png'"), std::string::npos);
+    const std::string long_name(100, 'a');
+    dir.write(long_name + ".png", "x");
+    EXPECT_NE(refusal(dir.path(), long_name + ".PNG").find("did you mean '"), std::string::npos);
     EXPECT_NE(refusal(dir.path(),
                       "\xc3\xbc"
                       "ber.png")
@@ -94,7 +98,8 @@ TEST(ResolveUri, RefusesWhatIsNoFileInside) {
         {"100%", "hexadecimal"},
         {"a%zz", "hexadecimal"},
         {"missing.bin", "does not exist"},
-        {".", "link leads out"},
+        {".", "regular file"},
+        {"./", "regular file"},
         {std::string(5000, 'a'), "longer than"},
         {std::string(1000, 'a'), "reached"},
     };

@@ -52,10 +52,10 @@ inline ProfileRun made_up_run(int threads, std::vector<double> cpu_seconds) {
     run.light_paths = {.endings = {{"left the scene", 300.0}, {"roulette", 100.0}}, .lengths = {0, 300, 0, 100}};
     run.longest = {{.x = 3, .y = 4, .sample = 5, .vertices = 9}};
     run.shadow_unoccluded = 0.5;
-    run.scene_hits = {.materials = {{"red", 900.0}, {"green", 100.0}},
-                      .objects = {{"box", 1000.0}},
+    run.scene_hits = {.materials = {{"red", 900.0, 0.3}, {"green", 100.0, 0.15}},
+                      .objects = {{"box", 1000.0, 0.9}},
                       .textures = {},
-                      .lamps = {{"lamp", 4000.0, 3000.0}, {"lights without a surface", 1000.0, 1000.0}}};
+                      .lamps = {{"lamp", 4000.0, 3000.0, 0.8}, {"lights without a surface", 1000.0, 1000.0, 0.2}}};
     run.hardware.values = {{"cycles", 2e9}, {"instructions", 3e9}};
     run.heat_map = "heat-path-2.exr";
     return run;

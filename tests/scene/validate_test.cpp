@@ -47,6 +47,12 @@ IesProfileDesc& add_profile(SceneDesc& s) {
     return s.ies_profiles.emplace_back(IesProfileDesc{"lamp", {0, 1}, {0, 1, 2 * kPi}, {1, 2, 3, 4, 5, 6}, {}});
 }
 
+TEST(Validate, AcceptsTheMostAnisotropicMedium) {
+    SceneDesc scene = small_scene();
+    scene.materials[0].volume.scatter_anisotropy = -kMostAnisotropic;
+    EXPECT_FALSE(validate(scene).has_errors());
+}
+
 TEST(Validate, AcceptsLightsWithAProfile) {
     SceneDesc scene = small_scene();
     add_profile(scene);
@@ -93,6 +99,8 @@ const Defect kDefects[] = {
     {"NegativeRoughness", "roughness", [](SceneDesc& s) { s.materials[0].roughness = -0.1f; }},
     {"InfiniteStrength", "emissive strength", [](SceneDesc& s) { s.materials[0].emissive_strength = kInf; }},
     {"IorBelowOne", "ior", [](SceneDesc& s) { s.materials[0].ior = 0.5f; }},
+    {"AnisotropyOne", "scatter anisotropy is 1, but must be in [-0.999, 0.999]",
+     [](SceneDesc& s) { s.materials[0].volume.scatter_anisotropy = 1.0f; }},
     {"UnknownMetal", "unknown metal 'Xx'",
      [](SceneDesc& s) {
          s.materials[0].override_model = ConductorDesc{"Xx", 0.0f};

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace etendue::test {
 
@@ -250,6 +251,15 @@ TEST_F(UpToDate, NotWhenTheRenderWasCutShortOrItsReportIsForeign) {
         write_file(output_.json, text);
         EXPECT_NE(reason(), "") << text;
     }
+}
+
+TEST_F(UpToDate, NotWhenItsReportOrItsPngIsAPipeWhichIsNothingToWaitFor) {
+    for (const fs::path& file : {output_.json, output_.png}) {
+        fs::remove(file);
+        ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    }
+    EXPECT_EQ(reason(), "was not finished");
+    EXPECT_FALSE(is_whole_png(output_.png));
 }
 
 TEST(OutputPaths, StandBesideTheExr) {

@@ -61,7 +61,7 @@ class ContinuousIntegration(ShellTools):
         self.program("tools/ci/test-slurm", "exit 77")
         status, said = self.run_in_checkout("bash", ".ci/run")
         self.assertEqual(status, 0, said)
-        self.assertRegex(said, r"\n    tools/ci/test-slurm .*skipped")
+        self.assertRegex(said, r"\n    test_slurm .*skipped")
 
     def test_the_checkout_may_belong_to_somebody_else(self):
         status, said = self.run_in_checkout("bash", ".ci/run")

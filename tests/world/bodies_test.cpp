@@ -266,6 +266,24 @@ TEST(Bodies, EachChannelOfSubsurfaceHasItsOwnMeanFreePath) {
     EXPECT_GT(medium->single_scatter_albedo.g, medium->single_scatter_albedo.b);
 }
 
+/// The mean free path of the channel in which it is longest decides, against the largest body of the material.
+TEST(Bodies, AreDenseWhereLightScattersThirtyTimesAcross) {
+    const auto is_dense = [](float radius, const Rgb& free_path) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc wax;
+        wax.override_model = SubsurfaceDesc{.radius = free_path};
+        add_ball(scene, {0, 0, 0}, radius, wax);
+        add_ball(scene, {0, 9, 0}, 0.1f * radius, wax);
+        const World world = compile(std::move(scene));
+        return world.media().within(world.media().interior_at(Vec3f(0.0f), 0.5f))->is_dense;
+    };
+    const float across = 2.0f * std::sqrt(3.0f);  // the diagonal of the bounds of a unit ball
+    EXPECT_TRUE(is_dense(1.0f, Rgb(across / 31.0f)));
+    EXPECT_FALSE(is_dense(1.0f, Rgb(across / 29.0f)));
+    EXPECT_TRUE(is_dense(0.5f, Rgb(across / 62.0f)));
+    EXPECT_FALSE(is_dense(1.0f, {across / 29.0f, across / 99.0f, across / 99.0f}));
+}
+
 TEST(Bodies, ShortWavesAreRefractedMore) {
     SceneDesc scene = empty_scene();
     // 20 over the Abbe number: 1 is V = 20.

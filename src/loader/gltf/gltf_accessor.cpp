@@ -108,25 +108,10 @@ int component_count(const tinygltf::Accessor& accessor) {
     }
 }
 
-DecodeBudget::DecodeBudget(const GltfDocument& document) {
-    // Bytes grow at most fourfold on their way to floats; the rest is room for what is shared and placed often.
-    constexpr std::uint64_t kGrowth = 64;
-    constexpr std::uint64_t kLeast = std::uint64_t{1} << 30;
-    std::uint64_t size = document.size;
-    for (const tinygltf::Buffer& buffer : document.model.buffers) size += buffer.data.size();
-    left_ = kLeast + kGrowth * size;
-}
-
-bool DecodeBudget::take(std::uint64_t bytes) {
-    if (bytes > left_) return false;
-    left_ -= bytes;
-    return true;
-}
-
 AccessorReader::AccessorReader(const GltfDocument& document, ProblemList& problems)
     : document_(document),
       problems_(problems),
-      budget_(document),
+      budget_(document.budget),
       is_quantized_(std::ranges::find(document.extensions_used, "KHR_mesh_quantization") !=
                     document.extensions_used.end()) {}
 
@@ -213,15 +198,16 @@ bool AccessorReader::allocate(std::uint64_t count, std::uint64_t bytes, const So
     // Counts are below 2^32 and sizes below 2^10 here, or `bytes` is 1.
     if (budget_.take(count * bytes)) return true;
     // The file is refused; whatever else would take too much is no news.
-    if (!std::exchange(is_exhausted_, true))
-        problems_.error(where,
-                        "the file refers to the same things so often that it would take too much memory: more "
-                        "than 1 GiB and 64 times its size");
+    if (!std::exchange(is_exhausted_, true)) problems_.error(where, DecodeBudget::kExceeded);
     return false;
 }
 
 template <typename Out>
 std::optional<std::vector<Out>> AccessorReader::read(const tinygltf::Accessor& accessor, const SourceLocation& where) {
+    if (accessor.count == 0) {
+        problems_.error(where, "the accessor has no elements");
+        return std::nullopt;
+    }
     const std::size_t components = as_index(component_count(accessor));
     const std::size_t element_size = components * component_size(accessor.componentType);
     const std::optional<Elements> source = elements(accessor, element_size, where);
@@ -234,7 +220,8 @@ std::optional<std::vector<Out>> AccessorReader::read(const tinygltf::Accessor& a
             convert_one(source->first + i * source->stride, components, values.data() + i * components);
         }
     }
-    if (accessor.sparse.isSparse && !read_sparse(accessor, values, where)) return std::nullopt;
+    const bool is_sparse = accessor.sparse.isSparse && accessor.sparse.count > 0;
+    if (is_sparse && !read_sparse(accessor, values, where)) return std::nullopt;
     return values;
 }
 

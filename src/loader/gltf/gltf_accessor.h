@@ -12,19 +12,6 @@
 
 namespace etendue {
 
-/// How much may still be decoded from a file. A few lines of JSON can refer to the same bytes any number of times, so
-/// what comes out is bounded by a multiple of what went in.
-class DecodeBudget {
-  public:
-    explicit DecodeBudget(const GltfDocument& document);
-
-    /// False if `bytes` more are too much.
-    [[nodiscard]] bool take(std::uint64_t bytes);
-
-  private:
-    std::uint64_t left_;
-};
-
 /// Sets of integer types, of 8 and 16 bits each, that an attribute may be stored as besides floats.
 enum IntegerTypes : unsigned {
     kNoIntegers = 0,

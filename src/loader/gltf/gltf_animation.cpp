@@ -60,6 +60,27 @@ std::vector<double> evaluate(const AnimationKeys& keys, double seconds, bool is_
     return value;
 }
 
+/// Leaves out the keys of which a number is not finite, and returns how many these are.
+std::size_t drop_bad_keys(AnimationKeys& keys) {
+    const std::size_t row = keys.width * (keys.is_cubic() ? 3 : 1);
+    const auto is_good = [](float v) { return std::isfinite(v); };
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < keys.times.size(); ++k) {
+        const std::span<const float> numbers(keys.values.data() + k * row, row);
+        if (!is_good(keys.times[k]) || !std::ranges::all_of(numbers, is_good)) continue;
+        if (kept < k) {
+            keys.times[kept] = keys.times[k];
+            std::ranges::copy(numbers, keys.values.data() + kept * row);
+        }
+        ++kept;
+    }
+    const std::size_t dropped = keys.times.size() - kept;
+    keys.times.resize(kept);
+    keys.values.resize(kept * row);
+    return dropped;
+}
+
+/// Reads the keys of a channel; nothing, with a problem reported, if there are none that can be used.
 std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const GltfAnimation::Channel& channel,
                                        int components, IntegerTypes integers, AccessorReader& accessors,
                                        const SourceLocation& where, ProblemList& problems) {
@@ -76,9 +97,14 @@ std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const Glt
     if (!times || !values) return std::nullopt;
 
     AnimationKeys keys{std::move(times->values), std::move(values->values), 0, sampler.interpolation};
-    const auto is_bad = [](float v) { return !std::isfinite(v); };
-    if (std::ranges::any_of(keys.times, is_bad) || std::ranges::any_of(keys.values, is_bad))
-        return fail("a key is not finite");
+    const std::size_t rows = keys.times.size() * (keys.is_cubic() ? 3 : 1);
+    keys.width = keys.values.size() / rows;
+    if (keys.width == 0 || keys.width * rows != keys.values.size() ||
+        (components > 1 && keys.width != static_cast<std::size_t>(components)))
+        return fail(fmt::format("{} numbers do not make {} keys", keys.values.size(), keys.times.size()));
+    if (const std::size_t dropped = drop_bad_keys(keys); dropped > 0)
+        problems.warning(where, fmt::format("{} keys are not finite and are left out", dropped));
+    if (keys.times.empty()) return std::nullopt;
     if (const auto late = std::ranges::adjacent_find(keys.times, std::ranges::greater()); late != keys.times.end())
         return fail(fmt::format("the time of key {} is before that of key {}", late - keys.times.begin() + 1,
                                 late - keys.times.begin()));
@@ -86,11 +112,6 @@ std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const Glt
     if (equal != keys.times.end())
         problems.warning(where, fmt::format("keys {} and {} have the same time: the later one counts from there on",
                                             equal - keys.times.begin(), equal - keys.times.begin() + 1));
-    const std::size_t rows = keys.times.size() * (keys.is_cubic() ? 3 : 1);
-    keys.width = keys.values.size() / rows;
-    if (keys.width == 0 || keys.width * rows != keys.values.size() ||
-        (components > 1 && keys.width != static_cast<std::size_t>(components)))
-        return fail(fmt::format("{} numbers do not make {} keys", keys.values.size(), keys.times.size()));
     return keys;
 }
 

@@ -27,6 +27,7 @@ class BufferLoader {
         // Some exporters round the length up.
         constexpr std::uintmax_t kMostTooMany = 3;
         const auto claimed = buffer["byteLength"].get<std::uintmax_t>();
+        if (claimed == 0) throw IoError("the buffer has no bytes");
         const bool is_rounded_up = viewed > 0 && claimed > viewed && claimed - viewed <= kMostTooMany;
         const std::uintmax_t length = is_rounded_up ? viewed : claimed;
         if (!buffer.contains("uri")) return from_chunk(length, is_first);
@@ -107,6 +108,20 @@ std::vector<std::uintmax_t> viewed_bytes(const nlohmann::json& document) {
 
 }  // namespace
 
+DecodeBudget::DecodeBudget(std::uint64_t bytes) {
+    // Bytes grow at most fourfold on their way to floats; the rest is room for what is compressed, shared and placed
+    // often.
+    constexpr std::uint64_t kGrowth = 64;
+    constexpr std::uint64_t kLeast = std::uint64_t{1} << 30;
+    left_ = kLeast + kGrowth * bytes;
+}
+
+bool DecodeBudget::take(std::uint64_t bytes) {
+    if (bytes > left_) return false;
+    left_ -= bytes;
+    return true;
+}
+
 std::string buffer_name(std::size_t index) {
     return fmt::format("buffer-{}", index);
 }
@@ -117,14 +132,18 @@ bool is_data_uri(std::string_view uri) {
 }
 
 std::optional<std::vector<unsigned char>> decode_data_uri(const std::string& uri) {
+    // White space, which editors break lines with, is no part of it.
+    const auto without_space = [](std::string text) {
+        std::erase_if(text, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; });
+        return text;
+    };
     const std::size_t comma = uri.find(',');
-    constexpr std::string_view kBase64 = ";base64";
-    if (comma == std::string::npos || comma < kBase64.size() ||
-        !same_but_for_case(std::string_view(uri).substr(comma - kBase64.size(), kBase64.size()), kBase64))
+    const std::size_t last = uri.rfind(';', comma);
+    if (comma == std::string::npos || last == std::string::npos ||
+        !same_but_for_case(without_space(uri.substr(last + 1, comma - last - 1)), "base64"))
         return std::nullopt;
-    // RFC 3986: any character may be written as its code. White space, which editors break lines with, is none of it.
-    std::string content = percent_decode(std::string_view(uri).substr(comma + 1));
-    std::erase_if(content, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; });
+    // RFC 3986: any character may be written as its code.
+    const std::string content = without_space(percent_decode(std::string_view(uri).substr(comma + 1)));
 
     // tinygltf knows a few media types only, and stops without a word at a character that is not base64.
     std::vector<unsigned char> bytes;

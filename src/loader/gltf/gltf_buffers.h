@@ -4,6 +4,7 @@
 #include "core/error.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -19,6 +20,25 @@ namespace etendue {
 /// The bytes of each buffer by the private name that replaces its URI, so that tinygltf never sees a name from the
 /// file.
 using GltfBuffers = std::map<std::string, std::vector<unsigned char>>;
+
+/// How much may still be decoded from a file. A few lines of JSON can refer to the same bytes any number of times, so
+/// what comes out is bounded by a multiple of what went in.
+class DecodeBudget {
+  public:
+    /// What is said of a file that asks for more.
+    static constexpr const char* kExceeded =
+        "the file refers to the same things so often that it would take too much memory: more than 1 GiB and 64 times "
+        "its size";
+
+    /// `bytes` are those of the file and of its buffers, as they were read.
+    explicit DecodeBudget(std::uint64_t bytes);
+
+    /// False if `bytes` more are too much.
+    [[nodiscard]] bool take(std::uint64_t bytes);
+
+  private:
+    std::uint64_t left_;
+};
 
 /// The name of buffer `index`.
 [[nodiscard]] std::string buffer_name(std::size_t index);

@@ -10,10 +10,13 @@
 #include "loader/gltf/gltf_meshopt.h"
 #include "loader/gltf/gltf_rules.h"
 #include "loader/gltf/gltf_shape.h"
+#include "loader/gltf/repair_log.h"
 #include "loader/json_text.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -155,6 +158,34 @@ std::vector<PrimitiveIndices> take_indices(Json& document, const GltfDocument& r
     return taken;
 }
 
+/// Takes the strides of the buffer views out of the document, by view: tinygltf refuses those that are no multiple of 4
+/// up to 252, and says of none where it is.
+std::vector<std::size_t> take_strides(Json& document) {
+    std::vector<std::size_t> taken;
+    if (!document.contains("bufferViews")) return taken;
+    for (Json& view : document["bufferViews"]) {
+        taken.push_back(view.value("byteStride", std::size_t{0}));
+        view.erase("byteStride");
+    }
+    return taken;
+}
+
+/// Gives spots that do not describe their cones a description without numbers: tinygltf refuses the file otherwise, and
+/// does not say where.
+void complete_spots(Json& document, const GltfDocument& result, ProblemList& problems) {
+    const std::string pointer = "/extensions/KHR_lights_punctual/lights";
+    if (!document.contains(Json::json_pointer(pointer))) return;
+    Json& lights = document[Json::json_pointer(pointer)];
+    RepairLog repairs;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        Json& light = lights[i];
+        if (light["type"].get<std::string>() != "spot" || light.contains("spot")) continue;
+        light["spot"] = Json::object();
+        repairs.add(Repair::NoCones, 1, result.at(child_pointer(pointer, i)));
+    }
+    repairs.report(problems);
+}
+
 /// Takes the images out of the document: their pixels are decoded elsewhere, and tinygltf shall not touch their files.
 void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
     if (!document.contains("images")) return;
@@ -169,6 +200,12 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
         result.images.push_back(std::move(image));
     }
     document.erase("images");
+}
+
+std::uint64_t total_size(const GltfBuffers& buffers) {
+    std::uint64_t size = 0;
+    for (const auto& [name, content] : buffers) size += content.size();
+    return size;
 }
 
 /// Lists the files of all images, even of images that nothing shows: no output may replace them.
@@ -358,20 +395,23 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     throw_if_errors(found);
     check_version(document, result, found);
     check_rules(document, result.at(""), found);
+    complete_spots(document, result, found);
     const std::vector<PrimitiveIndices> indices = take_indices(document, result, found);
-    take_images(document, result, found);
     take_extras(document, result, found);
     take_animations_and_skins(document, result);
     GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.inputs, result.absent_buffers);
+    result.budget = DecodeBudget(bytes.size() + total_size(buffers));
+    bytes = {};
+    expand_meshopt_views(document, buffers, result.absent_buffers, result.budget, result.at(""), found);
+    take_images(document, result, found);
     list_images(result);
-    expand_meshopt_views(document, buffers, result.absent_buffers, result.at(""), found);
     throw_if_errors(found);
 
-    result.size = bytes.size();
-    bytes = {};
+    const std::vector<std::size_t> strides = take_strides(document);
     result.model = parse_model(document, buffers, result);
     for (const PrimitiveIndices& taken : indices)
         result.model.meshes[taken.mesh].primitives[taken.primitive].indices = taken.accessor;
+    for (std::size_t i = 0; i < strides.size(); ++i) result.model.bufferViews[i].byteStride = strides[i];
     for (const Problem& problem : found.all()) problems.add(problem);
     return result;
 }

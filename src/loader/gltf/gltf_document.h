@@ -5,7 +5,6 @@
 #include "loader/gltf/gltf_buffers.h"
 #include "scene/scene_desc.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -68,7 +67,7 @@ struct GltfDocument {
     std::string animatable;  ///< JSON of what animations point to; empty if none does
     std::filesystem::path directory;
     std::string file;                                   ///< for messages
-    std::uint64_t size = 0;                             ///< size of the file, bytes
+    DecodeBudget budget{0};                             ///< what may be decoded besides what is in the model
     std::vector<std::string> extensions_used;           ///< and supported
     std::vector<std::string> extensions_ignored;        ///< used, not supported, not required
     std::vector<std::filesystem::path> inputs;          ///< the file and the buffers it names
@@ -87,8 +86,9 @@ struct GltfDocument {
 /// Reads `file`, a .gltf or .glb, and the buffers it names inside its directory.
 ///
 /// After it, every index in the model refers to something that exists and every value has the type and the range of the
-/// specification's schema; what the bytes say (indices, sizes of views, coordinates) is not checked yet. Warnings go to
-/// `problems`, or all of them into the SceneError that is thrown if there is an error.
+/// specification's schema, but that lengths and counts may be 0; what the bytes say (indices, sizes of views,
+/// coordinates) is not checked yet. Warnings go to `problems`, or all of them into the SceneError that is thrown if
+/// there is an error.
 [[nodiscard]] GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& problems);
 
 }  // namespace etendue

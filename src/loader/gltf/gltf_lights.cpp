@@ -8,6 +8,7 @@
 #include "loader/json_text.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,18 @@ namespace {
 
 constexpr const char* kPunctual = "KHR_lights_punctual";
 constexpr const char* kMeasured = "EXT_lights_ies";
+
+constexpr double kWidestCone = 0.5 * std::numbers::pi;
+
+/// Returns whether a spot's cone may have that `angle`, as single precision has it.
+bool is_cone(double angle) {
+    constexpr double kRounding = 1e-6;
+    return angle >= 0.0 && angle <= kWidestCone + kRounding;
+}
+
+float clamp_cone(double angle) {
+    return static_cast<float>(std::clamp(angle, 0.0, kWidestCone));
+}
 
 std::string text_or_empty(const tinygltf::Value& object, const std::string& key) {
     return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : std::string();
@@ -53,19 +66,26 @@ void LightReader::place_punctual(const tinygltf::Node& node, std::size_t index, 
                        static_cast<float>(source.color[2])};
     }
     light.intensity = static_cast<float>(source.intensity);
-    light.inner_cone_angle = static_cast<float>(source.spot.innerConeAngle);
-    light.outer_cone_angle = static_cast<float>(source.spot.outerConeAngle);
+    const tinygltf::SpotLight& spot = source.spot;
+    light.inner_cone_angle = clamp_cone(spot.innerConeAngle);
+    light.outer_cone_angle = clamp_cone(spot.outerConeAngle);
     light.to_world = to_world;
     light.location = document_.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
     if (light.type != LightType::Spot) return;
+    const bool is_first = seen_spots_.insert(index).second;
+    if (is_first && !(is_cone(spot.innerConeAngle) && is_cone(spot.outerConeAngle)))
+        problems_.warning(light.location,
+                          fmt::format("the spot's cone angles of {:.4g} and {:.4g} are not in [0, pi/2] and are moved "
+                                      "to its ends",
+                                      spot.innerConeAngle, spot.outerConeAngle));
+    const bool is_closed = light.outer_cone_angle == 0.0f;
     // Exporters write single precision, also of the default for the outer cone, which is not.
-    const bool has_ramp = source.spot.innerConeAngle != source.spot.outerConeAngle;
-    if (has_ramp && light.inner_cone_angle <= light.outer_cone_angle) return;
-    const bool is_closed = !has_ramp && light.outer_cone_angle == 0.0f;
-    if (warned_.insert(index).second)
+    const bool has_ramp = spot.innerConeAngle != spot.outerConeAngle;
+    if (!is_closed && has_ramp && light.inner_cone_angle <= light.outer_cone_angle) return;
+    if (is_first)
         problems_.warning(
             light.location,
-            is_closed ? "the spot's cones have the angle 0, so that it lights nothing: it is left out"
+            is_closed ? "the spot's outer cone has the angle 0, so that it lights nothing: it is left out"
                       : fmt::format("the spot's inner cone of {:.4g} should be narrower than the outer one of {:.4g}: "
                                     "the light ends at a hard edge",
                                     light.inner_cone_angle, light.outer_cone_angle));
@@ -128,6 +148,7 @@ std::vector<unsigned char> LightReader::profile_bytes(const tinygltf::Value& sou
     }
     if (uri.empty()) {
         const auto view = accessors_.copyable_view(integer_or(source, "bufferView", -1), where);
+        if (view && view->empty()) throw SceneError(where, "the buffer view is empty");
         return view ? std::vector<unsigned char>(view->begin(), view->end()) : std::vector<unsigned char>();
     }
     if (is_data_uri(uri)) {

@@ -36,7 +36,7 @@ class LightReader {
     SceneDesc& scene_;
     ProblemList& problems_;
     std::map<int, Handle<IesProfileDesc>> profiles_;  ///< by their index in the file
-    std::set<std::size_t> warned_;                    ///< indices in the file of spots whose cones were warned of
+    std::set<std::size_t> seen_spots_;                ///< indices in the file of spots whose cones were looked at
 };
 
 }  // namespace etendue

@@ -249,8 +249,8 @@ class MaterialReader {
 
     void read_volume_scatter(const Value& scatter, MaterialDesc& result) {
         result.volume.multiscatter_color = unit_color(scatter, "multiscatterColor", 0.0);
-        constexpr float kMost = 0.999f;
-        result.volume.scatter_anisotropy = std::clamp(plain(scatter, "scatterAnisotropy", 0.0), -kMost, kMost);
+        result.volume.scatter_anisotropy =
+            std::clamp(plain(scatter, "scatterAnisotropy", 0.0), -kMostAnisotropic, kMostAnisotropic);
     }
 
     void read_anisotropy(const Value& anisotropy, MaterialDesc& result) {

@@ -275,6 +275,7 @@ class PrimitiveReader {
                 return false;
             }
         }
+        std::size_t bad = 0;
         deformation.influences = kSet * joints.size();
         deformation.joints.reserve(kept_.size() * deformation.influences);
         deformation.weights.reserve(kept_.size() * deformation.influences);
@@ -283,15 +284,17 @@ class PrimitiveReader {
                 const std::size_t value = std::size_t{vertex} * kSet + i % kSet;
                 const float joint = joints[i / kSet]->values[value];
                 const float weight = weights[i / kSet]->values[value];
-                if (!(weight >= 0.0f) || !std::isfinite(weight) || !(joint >= 0.0f) || !(joint <= 65535.0f)) {
-                    problems_.error(at("attributes"),
-                                    fmt::format("a joint or weight of vertex {} is not valid", vertex));
+                if (!(joint >= 0.0f) || !(joint <= 65535.0f)) {
+                    problems_.error(at("attributes"), fmt::format("a joint of vertex {} is not valid", vertex));
                     return false;
                 }
+                const bool is_good = weight >= 0.0f && std::isfinite(weight);
+                if (!is_good) ++bad;
                 deformation.joints.push_back(static_cast<std::uint32_t>(joint));
-                deformation.weights.push_back(weight);
+                deformation.weights.push_back(is_good ? weight : 0.0f);
             }
         }
+        repairs_.add(Repair::BadWeights, bad, at("attributes"));
         return true;
     }
 

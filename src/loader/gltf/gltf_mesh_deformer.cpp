@@ -88,10 +88,11 @@ const std::vector<double>& MeshDeformer::weights_of(int node_index, const std::v
 /// Copies are taken from what may still be decoded: any number of nodes can deform one mesh.
 bool MeshDeformer::allocate_copy(const MeshDesc& mesh, const SourceLocation& where) {
     constexpr std::size_t kBytesPerVertex = sizeof(Vec3f) * 2 + sizeof(Vec4f) * 2 + sizeof(Vec2f) * 2;
-    return std::ranges::all_of(mesh.primitives, [&](const PrimitiveDesc& primitive) {
-        return accessors_.allocate(primitive.positions.size(), kBytesPerVertex, where) &&
-               accessors_.allocate(primitive.triangles.size(), 3 * sizeof(std::uint32_t), where);
-    });
+    return accessors_.allocate(1, kBytesOfMesh, where) &&
+           std::ranges::all_of(mesh.primitives, [&](const PrimitiveDesc& primitive) {
+               return accessors_.allocate(primitive.positions.size(), kBytesPerVertex, where) &&
+                      accessors_.allocate(primitive.triangles.size(), 3 * sizeof(std::uint32_t), where);
+           });
 }
 
 std::vector<VertexStep> MeshDeformer::move(const PrimitiveDesc& primitive, const PrimitiveDeformation& deformation,

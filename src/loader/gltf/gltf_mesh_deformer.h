@@ -6,12 +6,17 @@
 #include "loader/gltf/gltf_posed_nodes.h"
 #include "scene/scene_desc.h"
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace etendue {
+
+/// About what a mesh that is made for one place takes besides its vertices and its place: its description and Embree's
+/// scene of it.
+inline constexpr std::uint64_t kBytesOfMesh = 1024;
 
 class MeshDeformer {
   public:

@@ -3,6 +3,7 @@
 #include "loader/gltf/meshopt_attributes.h"
 #include "loader/json_text.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -26,8 +27,14 @@ const char* compression_of(const Json& view) {
     return nullptr;
 }
 
-/// Most bytes that all views of a file may become.
-constexpr std::uint64_t kMaxDecoded = std::uint64_t{1} << 33;
+/// Marks in `named` the buffer views that something in `place` names.
+void mark_named_views(const Json& place, std::vector<bool>& named) {
+    const auto view = place.find("bufferView");
+    if (view != place.end() && view->is_number_unsigned() && view->get<std::size_t>() < named.size())
+        named[view->get<std::size_t>()] = true;
+    for (const Json& part : place)
+        if (part.is_structured()) mark_named_views(part, named);
+}
 
 struct CompressedView {
     std::span<const unsigned char> bytes;
@@ -41,6 +48,7 @@ struct CompressedView {
 
 /// Returns what the codecs would refuse in the numbers of `view`, as a message; an empty text if all numbers are right.
 std::string find_fault(const CompressedView& view) {
+    if (view.count == 0) return "there are no elements";
     if (view.mode == "ATTRIBUTES") {
         if (view.stride % 4 != 0 || view.stride == 0 || view.stride > 256)
             return fmt::format("attributes have a stride that is a multiple of 4 up to 256, not {}", view.stride);
@@ -111,23 +119,28 @@ CompressedView find_view(const Json& extension, const GltfBuffers& buffers, cons
 
 }  // namespace
 
-void expand_meshopt_views(Json& document, GltfBuffers& buffers, const AbsentBuffers& absent, const SourceLocation& file,
-                          ProblemList& problems) {
+void expand_meshopt_views(Json& document, GltfBuffers& buffers, const AbsentBuffers& absent, DecodeBudget& budget,
+                          const SourceLocation& file, ProblemList& problems) {
     if (!document.contains("bufferViews")) return;
     Json& views = document["bufferViews"];
-    std::uint64_t total = 0;
+    if (std::ranges::none_of(views, [](const Json& view) { return compression_of(view) != nullptr; })) return;
+    std::vector<bool> named(views.size());
+    mark_named_views(document, named);
     for (std::size_t i = 0; i < views.size(); ++i) {
         Json& view = views[i];
         const char* const extension = compression_of(view);
-        if (extension == nullptr) continue;
+        if (extension == nullptr || !named[i]) continue;
         const SourceLocation where{file.file,
                                    child_pointer(child_pointer("/bufferViews", i), "extensions") + "/" + extension};
         try {
             const CompressedView compressed = find_view(view["extensions"][extension], buffers, absent);
             const std::string fault = find_fault(compressed);
             if (!fault.empty()) throw IoError(fault);
-            total += compressed.decoded_size();
-            if (total > kMaxDecoded) throw IoError("all compressed views together would take too much memory");
+            if (!budget.take(compressed.decoded_size())) {
+                // The file is refused; whatever else would take too much is no news.
+                problems.error(where, DecodeBudget::kExceeded);
+                return;
+            }
             std::vector<unsigned char> decoded = decode(compressed);
 
             const std::size_t index = document["buffers"].size();

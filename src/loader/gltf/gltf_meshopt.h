@@ -9,9 +9,10 @@
 
 namespace etendue {
 
-/// Decompresses every buffer view of the checked `document` that has one of the extensions. Each becomes a plain view
-/// of a buffer of its own, which is added to `buffers`. Errors go to `problems`.
+/// Decompresses every buffer view of the checked `document` that has one of the extensions and that something reads.
+/// Each becomes a plain view of a buffer of its own, which is added to `buffers` and taken from `budget`. Errors go to
+/// `problems`.
 void expand_meshopt_views(nlohmann::json& document, GltfBuffers& buffers, const AbsentBuffers& absent,
-                          const SourceLocation& file, ProblemList& problems);
+                          DecodeBudget& budget, const SourceLocation& file, ProblemList& problems);
 
 }  // namespace etendue

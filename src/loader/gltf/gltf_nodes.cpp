@@ -12,8 +12,10 @@
 #include "scene/transform.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -207,20 +209,33 @@ class Placer {
             node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where, current_, is_deformed};
         if (!motion.empty()) instance.motion = thin_out(motion, bounds_of(handle));
         if (!open_singular_steps(instance)) {
-            const Handle<MeshDesc> flat =
-                instance.motion.empty() ? flattened(mesh, to_world, where) : Handle<MeshDesc>();
+            Mat4f translation;
+            for (int axis = 0; axis < 3; ++axis) translation[3][axis] = instance.to_world[3][axis];
+            const Handle<MeshDesc> flat = instance.motion.empty() && is_finite(instance.to_world)
+                                              ? flattened(handle, to_world, where)
+                                              : Handle<MeshDesc>();
             problems_.warning(where, flat ? "the node's transform is singular: its mesh is shown flat"
                                           : "the node's transform is singular: its mesh is left out");
             if (!flat) return;
             instance.mesh = flat;
-            instance.to_world = Mat4f();
+            instance.to_world = translation;
         }
         scene_.instances.push_back(std::move(instance));
     }
 
-    /// A mesh of its own where `to_world`, which cannot be inverted, puts this one: what is left of it has the normals
-    /// of its triangles. Nothing if none has an area.
-    Handle<MeshDesc> flattened(const MeshDesc& mesh, const Mat4d& to_world, const SourceLocation& where) {
+    /// The mesh `handle` as `to_world`, which cannot be inverted, makes it but for where it is: what is left has the
+    /// normals of its triangles. Places that differ in nothing else share it. Nothing if no triangle has an area.
+    Handle<MeshDesc> flattened(Handle<MeshDesc> handle, const Mat4d& to_world, const SourceLocation& where) {
+        FlatShape shape;
+        shape.first = handle.index;
+        for (int i = 0; i < 9; ++i) shape.second[static_cast<std::size_t>(i)] = to_world[i / 3][i % 3];
+        const auto [entry, is_new] = flat_meshes_.try_emplace(shape);
+        if (is_new) entry->second = flatten(scene_.meshes[static_cast<std::size_t>(handle.index)], to_world, where);
+        return entry->second;
+    }
+
+    Handle<MeshDesc> flatten(const MeshDesc& mesh, const Mat4d& to_world, const SourceLocation& where) {
+        if (!accessors_.allocate(1, kBytesOfMesh, where)) return {};
         MeshDesc flat;
         flat.name = mesh.name;
         flat.location = mesh.location;
@@ -231,7 +246,11 @@ class Placer {
             copy.normals.clear();
             copy.tangents.clear();
             copy.motion.clear();
-            for (Vec3f& position : copy.positions) position = Vec3f(Vec3d(position) * to_world);
+            for (Vec3f& position : copy.positions) {
+                Vec3d moved(0.0);
+                to_world.multDirMatrix(Vec3d(position), moved);
+                position = Vec3f(moved);
+            }
             static_cast<void>(remove_degenerate_triangles(copy.triangles, copy.positions));
             const bool is_finite_all = std::ranges::all_of(copy.positions, [](const Vec3f& p) { return is_finite(p); });
             if (copy.triangles.empty() || !is_finite_all) flat.primitives.pop_back();
@@ -287,8 +306,11 @@ class Placer {
     std::vector<std::uint32_t> node_index_;    ///< index in the scene of each of the file's nodes
     std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
     std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
-    std::size_t longest_light_name_ = 0;       ///< bytes
-    FreeNames camera_names_;                   ///< cameras are chosen by name, so each has one of its own
+    /// A mesh, and the transform that makes it flat, without its last row.
+    using FlatShape = std::pair<std::int32_t, std::array<double, 9>>;
+    std::map<FlatShape, Handle<MeshDesc>> flat_meshes_;
+    std::size_t longest_light_name_ = 0;  ///< bytes
+    FreeNames camera_names_;              ///< cameras are chosen by name, so each has one of its own
 };
 
 /// How much of everything that nodes place a scene has.

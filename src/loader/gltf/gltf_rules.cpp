@@ -55,8 +55,9 @@ class RuleCheck {
         for_each("bufferViews", [this](const Json& view, const std::string& pointer) {
             if (!view.contains("byteStride")) return;
             const auto stride = view["byteStride"].get<std::uint64_t>();
-            if (stride % 4 != 0)
-                problems_.error(at(pointer + "/byteStride"), fmt::format("must be a multiple of 4, but is {}", stride));
+            constexpr std::uint64_t kMostStride = 252;
+            if (stride % 4 != 0 || stride > kMostStride)
+                repairs_.add(Repair::OddStride, 1, at(pointer + "/byteStride"));
             if (stride == 0) repairs_.add(Repair::StrideOfZero, 1, at(pointer + "/byteStride"));
         });
         repairs_.report(problems_);

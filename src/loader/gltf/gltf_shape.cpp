@@ -80,10 +80,10 @@ class Checker {
         error(pointer, fmt::format("must be one of {}, but is {}", fmt::join(shape.integers, ", "), number));
     }
 
-    /// Only for numbers that a table's range has already bounded far below 2^63.
+    /// Only for numbers that a table's range has already bounded far below 2^63. -0 becomes 0.
     static void make_integer(Json& value) {
-        if (!value.is_number_float()) return;
         const double number = value.get<double>();
+        if (value.is_number_integer() && (number < 0.0 || value.is_number_unsigned())) return;
         value = number < 0.0 ? Json(static_cast<std::int64_t>(number)) : Json(static_cast<std::uint64_t>(number));
     }
 

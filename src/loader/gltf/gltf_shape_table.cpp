@@ -12,6 +12,7 @@ namespace {
 using namespace gltf_schema;
 
 // ---- buffers, views, accessors ----
+// Placeholders that nothing reads may be empty, unlike in the schema.
 
 constexpr ShapeField kMeshoptBufferFields[] = {{"fallback", boolean()}};
 constexpr ShapeField kBufferExtensionFields[] = {
@@ -21,7 +22,7 @@ constexpr ShapeField kBufferExtensionFields[] = {
 constexpr ShapeField kBufferFields[] = {
     {"name", text()},
     {"uri", text()},
-    {"byteLength", integer(1, kMaxOffset), true},
+    {"byteLength", integer(0, kMaxOffset), true},
     {"extensions", object(kBufferExtensionFields)},
 };
 constexpr Shape kBuffer = object(kBufferFields);
@@ -31,9 +32,9 @@ constexpr std::string_view kMeshoptFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNIO
 constexpr ShapeField kMeshoptViewFields[] = {
     {"buffer", index_of("/buffers"), true},
     {"byteOffset", integer(0, kMaxOffset)},
-    {"byteLength", integer(1, kMaxOffset), true},
+    {"byteLength", integer(0, kMaxOffset), true},
     {"byteStride", integer(2, 256), true},
-    {"count", integer(1, kMaxVertices), true},
+    {"count", integer(0, kMaxVertices), true},
     {"mode", text(kMeshoptModes), true},
     {"filter", text(kMeshoptFilters)},
 };
@@ -45,8 +46,8 @@ constexpr ShapeField kBufferViewFields[] = {
     {"name", text()},
     {"buffer", index_of("/buffers"), true},
     {"byteOffset", integer(0, kMaxOffset)},
-    {"byteLength", integer(1, kMaxOffset), true},
-    {"byteStride", integer(0, 252)},
+    {"byteLength", integer(0, kMaxOffset), true},
+    {"byteStride", integer(0, kMaxInt)},
     {"target", integer(0, kMaxInt)},
     {"extensions", object(kBufferViewExtensionFields)},
 };
@@ -66,7 +67,7 @@ constexpr ShapeField kSparseValuesFields[] = {
     {"byteOffset", integer(0, kMaxInt)},
 };
 constexpr ShapeField kSparseFields[] = {
-    {"count", integer(1, kMaxInt), true},
+    {"count", integer(0, kMaxInt), true},
     {"indices", object(kSparseIndicesFields), true},
     {"values", object(kSparseValuesFields), true},
 };
@@ -76,7 +77,7 @@ constexpr ShapeField kAccessorFields[] = {
     {"byteOffset", integer(0, kMaxOffset)},
     {"componentType", one_of(kComponentTypes), true},
     {"normalized", boolean()},
-    {"count", integer(1, kMaxVertices), true},
+    {"count", integer(0, kMaxVertices), true},
     {"type", text(kElementTypes), true},
     {"min", array(kNumber)},
     {"max", array(kNumber)},

@@ -35,6 +35,9 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Repair::Count)> 
     "triangles with a vertex whose position is not finite are removed",
     "vertex colours are integers that are not marked as normalised; they are read as if they were",
     "buffer views have a stride of 0; their elements are taken to lie side by side",
+    "buffer views have a stride that is no multiple of 4 up to 252; they are read all the same",
+    "spots do not describe their cones; the angles 0 and pi/4 are taken",
+    "weights of joints that are negative or not finite are set to 0",
 };
 
 }  // namespace

@@ -35,6 +35,9 @@ enum class Repair {
     BadPositions,         ///< triangles
     WholeColors,          ///< primitives
     StrideOfZero,         ///< buffer views
+    OddStride,            ///< buffer views
+    NoCones,              ///< spots
+    BadWeights,           ///< weights of joints
     Count
 };
 

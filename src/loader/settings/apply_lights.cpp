@@ -8,6 +8,7 @@
 #include "loader/settings/json_object.h"
 #include "loader/settings/lamp_surface.h"
 #include "scene/transform.h"
+#include "scene/validate_parts.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -384,9 +385,12 @@ class LightChanges {
         add_shining(lamp);
     }
 
-    /// Adds `lamp` unless it is dark.
+    /// Adds `lamp` unless it is dark. A dark one must not be too large either: it may be dark for its size.
     void add_shining(const SurfaceLamp& lamp) {
-        if (lamp.radiance > 0.0f && max_component(lamp.color) > 0.0f) add_surface_lamp(lamp, scene_);
+        if (lamp.radiance > 0.0f && max_component(lamp.color) > 0.0f) return add_surface_lamp(lamp, scene_);
+        SceneDesc alone;
+        add_surface_lamp(lamp, alone);
+        validate_extent(alone, problems_);
     }
 
     SceneDesc& scene_;

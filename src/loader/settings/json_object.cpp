@@ -98,13 +98,12 @@ bool JsonObject::number(std::string_view key, const NumberRange& range, double& 
 bool JsonObject::number(std::string_view key, const NumberRange& range, float& out) {
     double value = 0.0;
     if (!number(key, range, value)) return false;
-    const auto narrow = static_cast<float>(value);
-    // Rounding must not carry a value across the end of a range.
-    if (!range.contains(static_cast<double>(narrow))) {
+    // Rounding must not carry a value to an end that the range leaves out.
+    if (!range.contains_single(value)) {
         problems_.error(at(key), fmt::format("must be {} in single precision, but is {}", range.str(), value));
         return false;
     }
-    out = narrow;
+    out = static_cast<float>(value);
     return true;
 }
 

@@ -10,7 +10,8 @@ namespace {
 constexpr NumberRange kZeroToOne{.min = 0.0, .max = 1.0};
 constexpr NumberRange kAboveZero{.min = 0.0, .open_min = true};
 constexpr NumberRange kLeastOne{.min = 1.0};
-constexpr NumberRange kScatterAnisotropy{.min = -0.999, .max = 0.999};
+constexpr NumberRange kScatterAnisotropy{.min = -static_cast<double>(kMostAnisotropic),
+                                         .max = static_cast<double>(kMostAnisotropic)};
 
 constexpr std::array kFactors{
     MaterialFactor{

@@ -17,7 +17,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr NumberRange kIor{.min = 1.0, .max = 3.0};
-constexpr NumberRange kAnisotropy{.min = -0.999, .max = 0.999};
+constexpr NumberRange kAnisotropy{.min = -static_cast<double>(kMostAnisotropic),
+                                  .max = static_cast<double>(kMostAnisotropic)};
 constexpr std::int64_t kMaxPriority = 1'000'000;
 
 constexpr auto kMetals = [] {

@@ -92,7 +92,7 @@ struct ConnectibleVertex {
     bool is_dispersed;
     bool is_after_delta;
     bool is_in_dense;  ///< the vertex lies in a dense medium, within which nothing is connected
-    float merged;  ///< SubpathDensities::merged of a vertex with a DiffuseEnd
+    float merged;      ///< SubpathDensities::merged of a vertex with a DiffuseEnd
 };
 
 }  // namespace etendue

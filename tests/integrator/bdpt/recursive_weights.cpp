@@ -112,9 +112,9 @@ class GivenPath {
             DepartingDensities departing = i == 0 ? leave_light(mis_, emission) : light_.departing[i - 1];
             if (!is_direct(i)) departing.pass_hidden();
             is_after_delta = is_after_delta || !is_direct(i);
-            vertex.densities = i == 0 ? arrive_from_light(mis_, emission, departing, vertex.position, cosine)
-                                      : departing.arrive(mis_.raised, squared_distance(i - 1), cosine,
-                                                         vertex.is_in_dense());
+            vertex.densities =
+                i == 0 ? arrive_from_light(mis_, emission, departing, vertex.position, cosine)
+                       : departing.arrive(mis_.raised, squared_distance(i - 1), cosine, vertex.is_in_dense());
             vertex.is_after_delta = is_after_delta;
             light_.merges[i] = merges({.end = SubpathEnd::AtLight, .is_after_delta = is_after_delta}, i, vertex);
             is_after_delta = is_after_delta || is_delta(i);
@@ -129,9 +129,9 @@ class GivenPath {
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
             DepartingDensities departing = i == last() ? DepartingDensities() : eye_.departing[i + 1];
             if (!is_direct(i + 1)) departing.pass_hidden();
-            vertex.densities = i == last() ? arrive_from_lens(mis_, departing, path_.camera, cosine)
-                                           : departing.arrive(mis_.raised, squared_distance(i), cosine,
-                                                              vertex.is_in_dense());
+            vertex.densities = i == last()
+                                   ? arrive_from_lens(mis_, departing, path_.camera, cosine)
+                                   : departing.arrive(mis_.raised, squared_distance(i), cosine, vertex.is_in_dense());
             eye_.merges[i] = merges({.end = SubpathEnd::AtEye,
                                      .index = static_cast<int>(last() - i) + kDirectlySeen,
                                      .only_deltas = only_deltas,

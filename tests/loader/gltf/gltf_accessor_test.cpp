@@ -103,6 +103,32 @@ TEST(Accessor, SparseOverZeros) {
     EXPECT_EQ(first_primitive(sparse_triangle(false).load()).positions[2], Vec3f(0, 6, 0));
 }
 
+TEST(Accessor, SparseWithoutElementsChangesNothing) {
+    GltfBuilder builder = sparse_triangle(true);
+    builder.json["accessors"][0]["sparse"]["count"] = 0;
+    EXPECT_EQ(first_primitive(builder.load()).positions[1], Vec3f(1, 0, 0));
+}
+
+// Multiples of 4 up to 252 are what glTF allows.
+TEST(Accessor, StridesMayBeOfAnyLength) {
+    for (const std::size_t stride : {13u, 254u, 1000u}) {
+        GltfBuilder builder;
+        std::vector<unsigned char> vertices(2 * stride + 12);
+        for (std::size_t i = 0; i < 3; ++i) std::memcpy(vertices.data() + i * stride, kTriangle.data() + 3 * i, 12);
+        const int view = builder.view(vertices, static_cast<int>(stride));
+        nlohmann::json& primitive = builder.add_mesh({{"POSITION", builder.accessor_of_view(view, "VEC3", 5126, 3)}});
+        const int indices = builder.view(std::vector<std::uint16_t>{2, 0, 1}, 2);
+        primitive["indices"] = builder.accessor_of_view(indices, "SCALAR", 5123, 3);
+        const int colors = builder.view(std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255}, 3);
+        primitive["attributes"]["COLOR_0"] = builder.accessor_of_view(colors, "VEC3", 5121, 3, true);
+        const LoadedScene loaded = builder.load();
+        const PrimitiveDesc& p = first_primitive(loaded);
+        EXPECT_EQ(p.positions[2], Vec3f(0, 1, 0)) << stride;
+        EXPECT_EQ(p.triangles[0], (std::array<std::uint32_t, 3>{2, 0, 1})) << stride;
+        EXPECT_EQ(p.colors[1], Vec4f(0, 1, 0, 1)) << stride;
+    }
+}
+
 TEST(Accessor, IndicesMayBeSparseOverZeros) {
     GltfBuilder builder;
     nlohmann::json& primitive = builder.add_triangle();
@@ -154,8 +180,8 @@ const BadAccessor kBadAccessors[] = {
     {"CountTooLarge", "4 elements of 12 bytes", [](GltfBuilder& b) { positions(b)["count"] = 4; }},
     {"CountHuge", "do not fit", [](GltfBuilder& b) { positions(b)["count"] = 1'000'000'000; }},
     {"CountBeyond32Bits", "must be an integer in", [](GltfBuilder& b) { positions(b)["count"] = 1'000'000'000'000; }},
-    {"CountZero", "must be an integer in [1", [](GltfBuilder& b) { positions(b)["count"] = 0; }},
-    {"CountNegative", "must be an integer in [1", [](GltfBuilder& b) { positions(b)["count"] = -3; }},
+    {"CountZero", "no elements", [](GltfBuilder& b) { positions(b)["count"] = 0; }},
+    {"CountNegative", "must be an integer in [0", [](GltfBuilder& b) { positions(b)["count"] = -3; }},
     {"CountFraction", "must be an integer, but is 2.5", [](GltfBuilder& b) { positions(b)["count"] = 2.5; }},
     {"OffsetTooLarge", "do not fit", [](GltfBuilder& b) { positions(b)["byteOffset"] = 4; }},
     {"OffsetHuge", "do not fit", [](GltfBuilder& b) { positions(b)["byteOffset"] = 9007199254740992; }},
@@ -165,7 +191,7 @@ const BadAccessor kBadAccessors[] = {
     {"ViewOffsetHuge", "bytes from 9007199254740992",
      [](GltfBuilder& b) { position_view(b)["byteOffset"] = 9007199254740992; }},
     {"StrideTooSmall", "overlap", [](GltfBuilder& b) { position_view(b)["byteStride"] = 4; }},
-    {"StrideTooLarge", "byteStride", [](GltfBuilder& b) { position_view(b)["byteStride"] = 256; }},
+    {"StrideTooLarge", "byteStride", [](GltfBuilder& b) { position_view(b)["byteStride"] = 4294967296; }},
     {"StrideMakesItTooLong", "do not fit", [](GltfBuilder& b) { position_view(b)["byteStride"] = 252; }},
     {"ViewDoesNotExist", "refers to number 9", [](GltfBuilder& b) { positions(b)["bufferView"] = 9; }},
     {"BufferDoesNotExist", "refers to number 1", [](GltfBuilder& b) { position_view(b)["buffer"] = 1; }},

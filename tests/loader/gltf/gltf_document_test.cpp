@@ -84,6 +84,7 @@ const BadDocument kBadDocuments[] = {
     {"BufferShort", R"({"buffers": [{"byteLength": 40, "uri": "scene.bin"}]})", "40 are needed", "/buffers/0"},
     {"BufferHuge", R"({"buffers": [{"byteLength": 9007199254740992, "uri": "scene.bin"}]})", "are needed",
      "/buffers/0"},
+    {"BufferEmpty", R"({"buffers": [{"byteLength": 0, "uri": "scene.bin"}]})", "no bytes", "/buffers/0"},
     {"BufferWithoutUri", R"({"buffers": [{"byteLength": 36}]})", "neither a URI", "/buffers/0"},
     {"DataUriNotBase64", R"({"buffers": [{"byteLength": 3, "uri": "data:text/plain,abc"}]})", "base64", "/buffers/0"},
     {"DataUriBroken", R"({"buffers": [{"byteLength": 3, "uri": "data:;base64,AB*D"}]})", "base64", "/buffers/0"},
@@ -230,6 +231,19 @@ TEST(GltfDocument, BuffersThatNothingReadsMayBeAbsent) {
     EXPECT_EQ(loaded.scene.inputs.size(), 2u);
 }
 
+TEST(GltfDocument, PlaceholdersThatNothingReadsMayBeEmpty) {
+    GltfBuilder builder = triangle();
+    builder.json["buffers"] = {{{"byteLength", 36}, {"uri", "scene.bin"}},
+                               {{"byteLength", 0}},
+                               {{"byteLength", 0}, {"uri", ""}},
+                               {{"byteLength", 0}, {"uri", "scene.bin"}}};
+    builder.json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 0}});
+    builder.json["accessors"].push_back({{"componentType", 5126}, {"count", 0}, {"type", "VEC3"}});
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
+    EXPECT_EQ(loaded.scene.instances.size(), 1u);
+}
+
 TEST(GltfDocument, AnAbsentBufferIsReportedOnceHoweverMuchReadsIt) {
     GltfBuilder builder = triangle();
     nlohmann::json& primitives = builder.json["meshes"][0]["primitives"];
@@ -252,6 +266,7 @@ TEST(GltfDocument, BuffersFromDataUris) {
 // Schemes are the same in upper case, any character may be written as its code, and editors break lines.
 TEST(GltfDocument, DataUrisAsOthersWriteThem) {
     for (const char* uri : {"DATA:;BASE64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+                            "data:application/octet-stream; base64 ,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
                             "data:;base64,AAAAAAAAAAAAAAAA%41ACAPwAAAAAAAAAAAAAAAAAAgD8AAAA%41",
                             "data:;base64,AAAAAAAAAAAAAAAAAACAPwAA\nAAAAAAAAAAAAAAAAgD8AAAAA\r\n"}) {
         GltfBuilder builder = triangle();

@@ -72,6 +72,18 @@ TEST(GpuInstancing, InstancesOutOfNothingAreAnError) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "would take too much memory"));
 }
 
+// An accessor without bytes costs a file nothing, and a mesh for each place would.
+TEST(GpuInstancing, FlatPlacesShareTheirMesh) {
+    GltfBuilder builder = instanced([](GltfBuilder& b) {
+        b.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 1000}});
+        return nlohmann::json{{"TRANSLATION", b.json["accessors"].size() - 1}};
+    });
+    builder.json["nodes"][0]["scale"] = {1, 1, 0};
+    const LoadedScene loaded = builder.load();
+    EXPECT_EQ(loaded.scene.instances.size(), 1000u);
+    EXPECT_EQ(loaded.scene.meshes.size(), 2u);
+}
+
 TEST(GpuInstancing, ManyPlacesOfManyPrimitivesAreAnError) {
     // Each primitive has a place of its own in the world wherever its mesh is placed.
     GltfBuilder builder;

@@ -112,6 +112,18 @@ TEST(Material, VolumesAreRead) {
     EXPECT_EQ(volume.scatter_anisotropy, -0.5f);
 }
 
+TEST(Material, ScatteringThatGoesStraightOnIsMovedIntoItsRange) {
+    for (const char* g : {"1", "-1", "0.9995", "0.999"}) {
+        const LoadedScene loaded =
+            load_with_material((R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1},
+                "KHR_materials_volume_scatter": {"multiscatterColor": [1, 1, 1], "scatterAnisotropy": )" +
+                                std::string(g) + "}}}")
+                                   .c_str());
+        EXPECT_EQ(std::abs(material_of(loaded).volume.scatter_anisotropy), kMostAnisotropic) << g;
+        EXPECT_FALSE(validate(loaded.scene).has_errors()) << listing(validate(loaded.scene));
+    }
+}
+
 TEST(Material, VolumesWithoutThicknessAreThinWalls) {
     for (const char* volume : {R"({})", R"({"thicknessFactor": 0, "attenuationDistance": 2})"}) {
         const LoadedScene loaded =

@@ -117,6 +117,47 @@ TEST(Meshopt, AnAbsentBufferOfCompressedBytesIsAnError) {
                             "/EXT_meshopt_compression"));
 }
 
+TEST(Meshopt, WhatNothingReadsStaysCompressed) {
+    GltfBuilder builder = meshopt_mesh();
+    for (const Bytes& bytes : {Bytes(8, 0xff), encode_vertices(kPositions.data(), 4, 12)})
+        compressed_view(builder, bytes, 4, 12, "ATTRIBUTES");
+    builder.json["bufferViews"].back()["extensions"]["EXT_meshopt_compression"]["count"] = 0;
+    builder.json["buffers"][0]["byteLength"] = builder.bin.size();
+    EXPECT_FALSE(builder.load().problems.has_errors()) << listing(builder.load().problems);
+    builder.accessor_of_view(5, "VEC3", 5126, 4);
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "damaged", "/EXT_meshopt_compression"))
+        << "an accessor reads it";
+}
+
+TEST(Meshopt, ImagesAreRead) {
+    GltfBuilder builder = meshopt_mesh();
+    // Two elements of 36 bytes.
+    std::string png = png_bytes();
+    png.resize(72);
+    const int pixels = compressed_view(builder, encode_vertices(png.data(), 2, 36), 2, 36, "ATTRIBUTES");
+    builder.json["buffers"][0]["byteLength"] = builder.bin.size();
+    builder.json["images"] = {{{"bufferView", pixels}, {"mimeType", "image/png"}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    builder.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+    const LoadedScene loaded = builder.load();
+    ASSERT_EQ(loaded.scene.images.size(), 1u) << listing(loaded.problems);
+    EXPECT_EQ(loaded.scene.images[0].width, 1);
+}
+
+// The densest code claims 1.28 GB for 1.25 MB, of which none is taken before it is known that this is too much.
+TEST(Meshopt, CountsWithAllThatIsDecoded) {
+    GltfBuilder builder = meshopt_mesh();
+    Bytes bytes(1'250'000);
+    bytes[0] = 0xa1;
+    const int claim = compressed_view(builder, bytes, 5'000'000, 256, "ATTRIBUTES");
+    builder.json["buffers"][0]["byteLength"] = builder.bin.size();
+    EXPECT_FALSE(builder.load().problems.has_errors()) << listing(builder.load().problems);
+    builder.accessor_of_view(claim, "VEC3", 5126, 3);
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "would take too much memory",
+                            "/bufferViews/5/extensions/EXT_meshopt_compression"))
+        << listing(builder.load().problems);
+}
+
 TEST(Meshopt, PositionsAndIndicesComeOutAsTheyWentIn) {
     const LoadedScene loaded = meshopt_mesh().load();
     ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
@@ -159,6 +200,7 @@ const BadView kBadViews[] = {
     {"OutsideItsBuffer", "the buffer has", [](GltfBuilder& b) { extension(b, 0)["byteLength"] = 100000; }},
     {"OffsetHuge", "the buffer has", [](GltfBuilder& b) { extension(b, 0)["byteOffset"] = 9007199254740992; }},
     {"TooManyForItsBytes", "cannot come out of", [](GltfBuilder& b) { extension(b, 0)["count"] = 4294967290; }},
+    {"NoElements", "no elements", [](GltfBuilder& b) { extension(b, 0)["count"] = 0; }},
     {"MoreThanItHolds", "damaged", [](GltfBuilder& b) { extension(b, 0)["count"] = 300; }},
     {"Cut", "damaged", [](GltfBuilder& b) { extension(b, 1)["byteLength"] = 3; }},
     {"NotTriangles", "no whole triangles", [](GltfBuilder& b) { extension(b, 1)["count"] = 5; }},

@@ -154,12 +154,27 @@ TEST(Nodes, WhatIsScaledFlatIsShownFlat) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "is shown flat", "/nodes/0"));
     ASSERT_EQ(loaded.scene.instances.size(), 2u);
     const InstanceDesc& flat = loaded.scene.instances[0];
-    EXPECT_EQ(flat.to_world, Mat4f());
+    EXPECT_EQ(flat.to_world, Mat4f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1));
     const PrimitiveDesc& primitive = loaded.scene.meshes.at(static_cast<std::size_t>(flat.mesh.index)).primitives.at(0);
-    EXPECT_EQ(primitive.positions, (std::vector<Vec3f>{{0, 0, 5}, {2, 0, 5}, {0, 3, 5}}));
+    EXPECT_EQ(primitive.positions, (std::vector<Vec3f>{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}));
     EXPECT_TRUE(primitive.normals.empty());
     EXPECT_TRUE(validate(loaded.scene).all().empty()) << listing(validate(loaded.scene));
     EXPECT_EQ(loaded.scene.instances[1].mesh.index, 0) << "the other one has its thickness";
+}
+
+TEST(Nodes, FlatMeshesAreSharedWhereOnlyTheirPlaceDiffers) {
+    const nlohmann::json flat = {{"mesh", 0}, {"scale", {1, 1, 0}}};
+    nlohmann::json elsewhere = flat;
+    elsewhere["translation"] = {7, 0, 0};
+    nlohmann::json larger = flat;
+    larger["scale"] = {2, 1, 0};
+    const LoadedScene loaded = with_nodes({flat, elsewhere, larger}, {0, 1, 2}).load();
+    const std::vector<InstanceDesc>& instances = loaded.scene.instances;
+    ASSERT_EQ(instances.size(), 3u) << listing(loaded.problems);
+    EXPECT_EQ(instances[1].mesh, instances[0].mesh);
+    EXPECT_NE(instances[2].mesh, instances[0].mesh);
+    EXPECT_EQ(origin(instances[1].to_world), Vec3f(7, 0, 0));
+    EXPECT_EQ(loaded.scene.meshes.size(), 3u);
 }
 
 TEST(Nodes, TransformsThatOverflowAreLeftOut) {
@@ -168,6 +183,11 @@ TEST(Nodes, TransformsThatOverflowAreLeftOut) {
             .load();
     EXPECT_TRUE(loaded.scene.instances.empty());
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "singular", "/nodes/1"));
+    const LoadedScene flat =
+        with_nodes({{{"children", {1}}, {"scale", {1e30, 1e30, 0}}}, {{"mesh", 0}, {"translation", {1e30, 0, 0}}}})
+            .load();
+    EXPECT_TRUE(flat.scene.instances.empty()) << "flat, but nowhere";
+    EXPECT_TRUE(validate(flat.scene).all().empty()) << listing(validate(flat.scene));
 }
 
 TEST(Nodes, ProjectiveMatricesAreErrors) {
@@ -407,13 +427,49 @@ LoadedScene with_spot(double inner, double outer) {
     return builder.load();
 }
 
-TEST(Lights, BadConesAreErrors) {
-    EXPECT_TRUE(has_problem(with_spot(-0.1, 0.2).problems, Severity::Error, "cone", "/lights/0"));
-    EXPECT_TRUE(has_problem(with_spot(0.0, 2.0).problems, Severity::Error, "cone", "/lights/0"));
-    const LoadedScene closed = with_spot(0.0, 0.0);
-    EXPECT_TRUE(has_problem(closed.problems, Severity::Warning, "it is left out", "/lights/0"));
-    EXPECT_FALSE(closed.problems.has_errors());
-    EXPECT_TRUE(closed.scene.lights.empty());
+TEST(Lights, ConesAreMovedIntoTheirRange) {
+    const double right = std::acos(0.0);
+    const struct {
+        double inner;
+        double outer;
+        double read_inner;
+        double read_outer;
+        bool is_said;
+    } cases[] = {
+        {-0.1, 0.2, 0.0, 0.2, true},
+        {0.0, 2.0, 0.0, right, true},
+        {3.0, 2.0, right, right, true},
+        {0.5, right, 0.5, right, false},
+        {0.5, static_cast<double>(static_cast<float>(right)), 0.5, right, false},
+    };
+    for (const auto& c : cases) {
+        const LoadedScene loaded = with_spot(c.inner, c.outer);
+        EXPECT_EQ(has_problem(loaded.problems, Severity::Warning, "not in [0, pi/2]", "/lights/0"), c.is_said)
+            << c.inner << " " << c.outer << listing(loaded.problems);
+        ASSERT_EQ(loaded.scene.lights.size(), 1u) << c.inner << " " << c.outer;
+        EXPECT_FLOAT_EQ(loaded.scene.lights[0].inner_cone_angle, static_cast<float>(c.read_inner));
+        EXPECT_FLOAT_EQ(loaded.scene.lights[0].outer_cone_angle, static_cast<float>(c.read_outer));
+        EXPECT_FALSE(validate(loaded.scene).has_errors()) << listing(validate(loaded.scene));
+    }
+}
+
+TEST(Lights, ThatAreClosedAreLeftOut) {
+    for (const auto& [inner, outer] : {std::pair(0.0, 0.0), std::pair(0.2, 0.0), std::pair(-0.2, -0.1)}) {
+        const LoadedScene closed = with_spot(inner, outer);
+        EXPECT_TRUE(has_problem(closed.problems, Severity::Warning, "it is left out", "/lights/0")) << inner;
+        EXPECT_FALSE(closed.problems.has_errors()) << inner;
+        EXPECT_TRUE(closed.scene.lights.empty()) << inner;
+    }
+}
+
+TEST(Lights, SpotsWithoutConesHaveTheDefaults) {
+    GltfBuilder builder = with_nodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}});
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "do not describe their cones", "/lights/0"));
+    ASSERT_EQ(loaded.scene.lights.size(), 1u) << listing(loaded.problems);
+    EXPECT_EQ(loaded.scene.lights[0].inner_cone_angle, 0.0f);
+    EXPECT_FLOAT_EQ(loaded.scene.lights[0].outer_cone_angle, 0.78539816f);
 }
 
 TEST(Lights, ConesWithoutARampHaveAHardEdge) {

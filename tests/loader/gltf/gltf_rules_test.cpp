@@ -120,8 +120,20 @@ const Breach kBreaches[] = {
      }},
     {"StrideOfZero", Severity::Warning, "stride of 0", "/bufferViews/0/byteStride",
      [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 0; }},
-    {"OddStride", Severity::Error, "multiple of 4", "/bufferViews/0/byteStride",
-     [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 13; }},
+    {"OddStride", Severity::Warning, "no multiple of 4", "/bufferViews/1/byteStride",
+     [](GltfBuilder& b) {
+         b.view(std::vector<std::uint16_t>{0, 1, 2}, 2);
+     }},
+    {"LongStride", Severity::Warning, "up to 252", "/bufferViews/1/byteStride",
+     [](GltfBuilder& b) {
+         b.view(std::vector<std::uint16_t>{0, 1, 2}, 256);
+     }},
+    {"SpotWithoutCones", Severity::Warning, "the angles 0 and pi/4 are taken",
+     "/extensions/KHR_lights_punctual/lights/1",
+     [](GltfBuilder& b) {
+         b.json["extensionsUsed"] = {"KHR_lights_punctual"};
+         b.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}, {{"type", "spot"}}};
+     }},
     {"NoPrimitives", Severity::Warning, "empty arrays", "/meshes/1/primitives",
      [](GltfBuilder& b) {
          b.json["meshes"].push_back({{"primitives", nlohmann::json::array()}});

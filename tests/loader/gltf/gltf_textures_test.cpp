@@ -69,13 +69,16 @@ TEST(Textures, TheBytesCountWhateverTheMimeType) {
 }
 
 TEST(Textures, FromADataUri) {
-    const LoadedScene loaded =
-        textured({{"uri",
-                   "data:image/png;base64,"
-                   "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="}})
-            .load();
-    EXPECT_EQ(only_image(loaded).encoded.size(), png_bytes().size());
-    EXPECT_EQ(only_image(loaded).width, 1);
+    for (const std::string head :
+         {"data:image/png;base64,", "data:image/png; base64,", "data:image/png ;charset=x; base64 ,"}) {
+        const LoadedScene loaded =
+            textured(
+                {{"uri", head + "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJ"
+                                "RU5ErkJggg=="}})
+                .load();
+        EXPECT_EQ(only_image(loaded).encoded.size(), png_bytes().size()) << head;
+        EXPECT_EQ(only_image(loaded).width, 1) << head;
+    }
 }
 
 TEST(Textures, SamplersAreRead) {
@@ -140,6 +143,8 @@ std::vector<BadImage> unreadable_images() {
             {{{"uri", ""}}, png_bytes(), "the file name is empty"},
             {{{"name", "nothing"}}, png_bytes(), "the file name is empty"},
             {{{"uri", "directory"}}, png_bytes(), "'directory': this is not a regular file"},
+            {{{"uri", "."}}, png_bytes(), "'.': this is not a regular file"},
+            {{{"uri", "A.PNG"}}, png_bytes(), "did you mean 'a.png'?"},
             {{{"uri", "pipe"}}, png_bytes(), "'pipe': this is not a regular file"},
             {{{"uri", "data:image/png;base64,AAAA"}}, png_bytes(), "not an image of a known format"},
             {{{"uri", "data:image/png;base64,%zz"}}, png_bytes(), "'%' is not followed"},

@@ -203,6 +203,45 @@ TEST(Lamps, OfTheDocumentTakeThePlaceOfThoseOfTheFile) {
     EXPECT_EQ(Added(loaded.scene).instance.name, "sun");
 }
 
+// Whether or not they shine: over such a size no power is left at any place.
+TEST(Lamps, ThatAreTooLargeAreRefused) {
+    const auto expect = [](const std::string& lights, const std::string& pointer) {
+        const LoadedScene loaded = load_lamps(lights);
+        ProblemList problems = validate(loaded.scene);
+        for (const Problem& problem : loaded.problems.all()) problems.add(problem);
+        EXPECT_TRUE(has_problem(problems, Severity::Error, "must stay within 1e+15 m", pointer))
+            << lights << listing(problems);
+    };
+    const std::string place = R"("position": [0, 0, 0], )";
+    for (const char* radius : {"1e17", "1e25", "1e38"})
+        expect(R"({"a": {"type": "sphere", )" + place + R"("power": 1, "radius": )" + radius + "}}", "/lights/a");
+    expect(R"({"a": {"type": "rectangle", )" + place + R"("radiance": 0, "width": 1e30}})", "/lights/a");
+    expect(R"({"a": {"type": "disk", )" + place + R"("radiance": 1, "color": [0, 0, 0], "radius": 1e30}})",
+           "/lights/a");
+    expect(R"({"a": {"type": "point", )" + place + R"("intensity": 1, "radius": 1e25}})", "/lights/a");
+    expect(R"({"lamp": {"radius": 1e25}})", "/lights/lamp");
+    expect(R"({"Beam": {"radius": 1e25}})", "/lights/Beam");
+    const LoadedScene dark = load_lamps(R"({"a": {"type": "sphere", "position": [0, 0, 0], "power": 0}})");
+    EXPECT_FALSE(dark.problems.has_errors()) << listing(dark.problems);
+    EXPECT_EQ(dark.scene.instances.size(), 1u) << "dark, and left out";
+}
+
+// As the schema writes them; in single precision some are a little beyond.
+TEST(Lamps, MayHaveTheNumbersAtTheEndsOfTheirRanges) {
+    for (const char* angle :
+         {R"("type": "sun", "irradiance": 1, "angle": 3.141592)", R"("type": "disk", "power": 1, "spread": 0.0174532)",
+          R"("type": "disk", "power": 1, "spread": 3.1415928)",
+          R"("type": "spot", "power": 1, "outer_cone_angle": 1.5707964)"}) {
+        const LoadedScene loaded = load_lamps(R"({"Area": {)" + std::string(angle) + "}}");
+        EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        EXPECT_FALSE(validate(loaded.scene).has_errors()) << listing(validate(loaded.scene));
+    }
+    EXPECT_TRUE(load_lamps(R"({"Area": {"type": "sun", "irradiance": 1, "angle": 3.1415927}})").problems.has_errors());
+    EXPECT_TRUE(
+        load_lamps(R"({"Area": {"type": "disk", "power": 1, "width": 1e-60, "height": 1}})").problems.has_errors())
+        << "not above 0 in single precision";
+}
+
 TEST(Lamps, WhatTheyCannotBeIsSaid) {
     const auto expect = [](const std::string& lights, const std::string& part, const std::string& pointer) {
         const LoadedScene loaded = load_lamps(lights);

@@ -102,6 +102,16 @@ TEST(RenderJson, EverySettingIsRead) {
     EXPECT_TRUE(s.color.aces_container);
 }
 
+TEST(RenderJson, AnisotropyMayBeTheMostOfItsRange) {
+    for (const char* material :
+         {R"({"scatter_anisotropy": 0.999})", R"({"scatter_anisotropy": -0.999})",
+          R"({"subsurface": {"anisotropy": 0.999}})", R"({"dielectric": {"scatter_anisotropy": -0.999}})"}) {
+        const LoadedScene loaded = load_with(R"({"materials": {"paper": )" + std::string(material) + "}}");
+        EXPECT_FALSE(loaded.problems.has_errors()) << material << listing(loaded.problems);
+        EXPECT_FALSE(validate(loaded.scene).has_errors()) << material << listing(validate(loaded.scene));
+    }
+}
+
 TEST(RenderJson, UnknownKeysSuggestTheNearest) {
     const Parsed parsed =
         parse(R"({"sppp": 3, "integrator": {"maxdepth": 4}, "color": {"veiw": "x"}, "film": {"zzz": 1}})");
