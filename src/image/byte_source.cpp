@@ -18,7 +18,8 @@ class FileBytes {
 
     std::size_t read(std::uint64_t offset, std::span<std::uint8_t> bytes) {
         if (bytes.size() > block_.size()) return read_through(offset, bytes);
-        const bool is_held = offset >= begin_ && offset - begin_ <= filled_ && bytes.size() <= filled_ - (offset - begin_);
+        const bool is_held =
+            offset >= begin_ && offset - begin_ <= filled_ && bytes.size() <= filled_ - (offset - begin_);
         if (!is_held) {
             begin_ = offset;
             filled_ = read_through(offset, block_);

@@ -1,13 +1,13 @@
 #include "image/encoded_image.h"
 
 #include "core/error.h"
+#include "core/refused_input.h"
 #include "image/exr_claims.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -17,6 +17,8 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -66,6 +68,12 @@ std::vector<std::byte> first_bytes(std::span<const std::byte> bytes, std::size_t
     return {bytes.begin(), bytes.end()};
 }
 
+void show_instead(std::shared_ptr<const std::vector<std::byte>> rewritten, EncodedImage& image) {
+    image.source = std::span<const std::byte>(*rewritten);
+    image.size = static_cast<std::int64_t>(rewritten->size());
+    image.rewritten = std::move(rewritten);
+}
+
 /// Gives a Radiance picture a header that the library reads, if it has another.
 void rewrite_radiance(EncodedImage& image) {
     const auto first = [&](std::size_t most) {
@@ -82,27 +90,30 @@ void rewrite_radiance(EncodedImage& image) {
     auto rewritten = std::make_shared<std::vector<std::byte>>(plain_bytes.begin(), plain_bytes.end());
     rewritten->insert(rewritten->end(), file.begin() + static_cast<std::ptrdiff_t>(header.size), file.end());
     image.radiance = header;
-    image.source = std::span<const std::byte>(*rewritten);
-    image.size = static_cast<std::int64_t>(rewritten->size());
-    image.rewritten = std::move(rewritten);
+    show_instead(std::move(rewritten), image);
 }
 
-ByteSource bytes_of(const std::filesystem::path& path) {
-    const auto stream = std::make_shared<std::ifstream>(path, std::ios::binary);
-    return [stream](std::uint64_t offset, std::span<std::uint8_t> bytes) {
-        stream->clear();
-        stream->seekg(static_cast<std::streamoff>(offset));
-        stream->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        return static_cast<std::size_t>(std::max<std::streamsize>(0, stream->gcount()));
-    };
-}
-
-ByteSource bytes_of(std::span<const std::byte> all) {
-    return [all](std::uint64_t offset, std::span<std::uint8_t> bytes) {
-        const std::size_t count = offset < all.size() ? std::min(bytes.size(), all.size() - offset) : 0;
-        if (count > 0) std::memcpy(bytes.data(), all.data() + offset, count);
-        return count;
-    };
+/// Takes out of a JPEG what the library is not shown.
+void rewrite_jpeg(EncodedImage& image) {
+    constexpr std::int64_t kMostBytes = 4 * kMaxImagePixels;
+    if (image.size > kMostBytes)
+        throw RefusedInput(fmt::format("{} bytes are more than are read of a JPEG ({})", image.size, kMostBytes));
+    std::vector<std::byte> file;
+    std::span<const std::byte> bytes;
+    if (const auto* memory = std::get_if<std::span<const std::byte>>(&image.source)) {
+        bytes = *memory;
+    } else {
+        file = first_bytes(std::get<std::filesystem::path>(image.source), static_cast<std::size_t>(image.size));
+        bytes = file;
+    }
+    const std::vector<FilePiece> pieces = shown_pieces_of_jpeg(bytes);
+    if (pieces.empty()) return;
+    auto rewritten = std::make_shared<std::vector<std::byte>>();
+    for (const FilePiece& piece : pieces) {
+        const auto shown = bytes.subspan(piece.begin, piece.size);
+        rewritten->insert(rewritten->end(), shown.begin(), shown.end());
+    }
+    show_instead(std::move(rewritten), image);
 }
 
 }  // namespace
@@ -112,10 +123,13 @@ EncodedImage look_at(const ImageSource& source) {
     if (beginning.size == 0) throw IoError("the file is empty");
     const auto format = detect_format(std::span(beginning.head).first(beginning.head_size));
     if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
-    if (format->name == "openexr")
-        check_exr_claims(std::visit([](const auto& place) { return bytes_of(place); }, source),
-                         static_cast<std::uint64_t>(beginning.size));
     EncodedImage image{source, *format, beginning.size};
+    const auto size = static_cast<std::uint64_t>(beginning.size);
+    const ByteSource bytes = std::visit([](const auto& place) { return byte_source(place); }, source);
+    if (format->name == "openexr") check_exr_claims(bytes, size);
+    if (format->name == "png") image.pieces = shown_pieces_of_png(bytes, size);
+    if (format->name == "tiff") image.pieces = shown_pieces_of_tiff(bytes, size);
+    if (format->name == "jpeg") rewrite_jpeg(image);
     if (format->name == "hdr") rewrite_radiance(image);
     return image;
 }

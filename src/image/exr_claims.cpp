@@ -25,7 +25,8 @@ constexpr std::uint64_t kMostInflation = 1100;
 // Programs write some hundred attributes into a part at most. OpenImageIO looks through all of a part for each of them:
 // 60,000 take it 17 s, and as many as are allowed here a tenth of one at most.
 constexpr std::uint64_t kMostAttributesOfPart = 4096;
-/// In all parts: 16 for each of the most parts. Texts of a list count like attributes, of which each takes as much memory.
+/// In all parts: 16 for each of the most parts. Texts of a list count like attributes, of which each takes as much
+/// memory.
 constexpr std::uint64_t kMostAttributes = 65536;
 /// In all parts: as many as a file may have layers.
 constexpr std::uint64_t kMostListedChannels = 65536;

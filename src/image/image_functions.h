@@ -18,7 +18,7 @@
 namespace etendue {
 
 /// Holds the functions that the image module exports: each does what the function of this room with its name does, or
-/// what is said here. All throw IoError.
+/// what is said here. All throw IoError, and std::bad_alloc where memory is short, which is no fault of the image.
 struct ImageFunctions {
     ImageInfo (*read_image_info)(const EncodedImage& image);
     ImageF (*read_image_float)(const EncodedImage& image);

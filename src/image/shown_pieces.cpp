@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,14 @@ struct ByteRange {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
 };
+
+/// Adds a range that follows the last of `ranges`.
+void add_range(std::vector<ByteRange>& ranges, const ByteRange& range) {
+    if (!ranges.empty() && ranges.back().end == range.begin)
+        ranges.back().end = range.end;
+    else
+        ranges.push_back(range);
+}
 
 enum class HiddenBytes { LeftOut, Blank };
 
@@ -55,12 +64,6 @@ bool changes_png(std::string_view chunk) {
     return (static_cast<unsigned char>(chunk.front()) & kAncillary) == 0 || std::ranges::count(kColors, chunk) > 0;
 }
 
-/// An application segment or a comment, but for those that libjpeg looks at itself: JFIF's and Adobe's.
-bool is_jpeg_metadata(unsigned marker) {
-    constexpr unsigned kFirstApplication = 0xe0, kLastApplication = 0xef, kAdobe = 0xee, kComment = 0xfe;
-    return marker == kComment || (marker > kFirstApplication && marker <= kLastApplication && marker != kAdobe);
-}
-
 /// The directories of a TIFF file: one for each page, with Exif in one of its own (TIFF 6.0, section 2). BigTIFF has
 /// numbers of eight bytes where that has four, and for the number of entries.
 class TiffDirectories {
@@ -83,7 +86,8 @@ class TiffDirectories {
             std::vector<std::uint64_t> exif;
             page = read_directory(page, exif);
             std::vector<std::uint64_t> no_more;  // nobody looks for Exif in Exif
-            for (const std::uint64_t directory : exif) (void)read_directory(directory, no_more);
+            for (const std::uint64_t directory : exif)
+                if (directory != 0) (void)read_directory(directory, no_more);
         }
         std::ranges::sort(hidden_, {}, &ByteRange::begin);
         return std::move(hidden_);
@@ -125,11 +129,17 @@ class TiffDirectories {
         for (std::size_t at = 0; at + entry_bytes() <= entries.size(); at += entry_bytes())
             claimed += read_entry(begin + at, std::span(entries).subspan(at, entry_bytes()), exif);
         claimed_ += claimed;
-        // A single tag that claims too much is only not read, but many would each be read to the end of the file.
-        if (claimed > 2 * size_ || claimed_ / kMostSharing > size_)
-            throw IoError(fmt::format("the tags of its directories claim {} bytes, but the file has {}", claimed_, size_));
+        // One tag that claims too much is not read, but of many each would be, to the end of the file.
+        if (claimed > 2 * size_ || claimed_ / kMostSharing > size_) {
+            if (offset == first_)
+                throw IoError(fmt::format("its tags claim {} bytes, but the file has {}", claimed, size_));
+            // Nothing of another page is read; what leads there may be no directory.
+            for (std::size_t at = 0; at + entry_bytes() <= entries.size(); at += entry_bytes()) hide_type(begin + at);
+        }
         return number_at(begin + *count * entry_bytes(), word_bytes()).value_or(0);
     }
+
+    void hide_type(std::uint64_t entry) { hidden_.push_back({entry + 2, entry + 4}); }
 
     /// Returns how much of the file an entry claims for its value, at most all of it.
     std::uint64_t read_entry(std::uint64_t place, std::span<const std::uint8_t> entry,
@@ -137,7 +147,7 @@ class TiffDirectories {
         constexpr std::uint64_t kXmp = 700, kIptc = 33723, kExif = 34665;
         const std::uint64_t tag = number_of(entry.first(2), is_big_endian_);
         if (tag == kXmp || tag == kIptc) {
-            hidden_.push_back({place + 2, place + 4});
+            hide_type(place);
             return 0;
         }
         const std::uint64_t bytes = value_bytes(number_of(entry.subspan(2, 2), is_big_endian_));
@@ -146,7 +156,7 @@ class TiffDirectories {
             exif.push_back(number_of(value.first(std::min<std::size_t>(bytes, word_bytes())), is_big_endian_));
         const std::uint64_t count = number_of(entry.subspan(4, word_bytes()), is_big_endian_);
         if (bytes == 0 || count <= word_bytes() / bytes) return 0;  // it stands in the entry
-        return std::min(size_, count) > size_ / bytes ? size_ : count * bytes;
+        return count > size_ / bytes ? size_ : count * bytes;
     }
 
     const ByteSource& source_;
@@ -172,12 +182,7 @@ std::vector<FilePiece> shown_pieces_of_png(const ByteSource& source, std::uint64
         const std::uint64_t end = begin + kAroundData + number_of(std::span(head).first(4), true);
         if (end > size) break;
         const std::string_view type(reinterpret_cast<const char*>(head.data()) + 4, 4);
-        if (!changes_png(type)) {
-            if (!hidden.empty() && hidden.back().end == begin)
-                hidden.back().end = end;
-            else
-                hidden.push_back({begin, end});
-        }
+        if (!changes_png(type)) add_range(hidden, {begin, end});
         if (type == "IEND") break;
         begin = end;
     }
@@ -185,13 +190,18 @@ std::vector<FilePiece> shown_pieces_of_png(const ByteSource& source, std::uint64
 }
 
 std::vector<FilePiece> shown_pieces_of_jpeg(std::span<const std::byte> jpeg) {
+    constexpr unsigned kJfif = 0xe0, kAdobe = 0xee, kLastApplication = 0xef, kComment = 0xfe, kScan = 0xda;
+    // libjpeg looks at JFIF's and Adobe's itself, of which a file has one or two.
+    constexpr int kMostShown = 16;
     // The progressions of libjpeg have 24 for four channels, and libtiff decodes no more than 100.
     constexpr int kMostScans = 64;
-    constexpr unsigned kScan = 0xda;
     std::vector<ByteRange> hidden;
+    int shown = 0;
     int scans = 0;
     (void)walk_jpeg_segments(jpeg, [&](unsigned marker, std::size_t begin, std::size_t end) {
-        if (is_jpeg_metadata(marker)) hidden.push_back({begin, end});
+        const bool is_application = marker >= kJfif && marker <= kLastApplication;
+        const bool is_shown = (marker == kJfif || marker == kAdobe) && ++shown <= kMostShown;
+        if (marker == kComment || (is_application && !is_shown)) add_range(hidden, {begin, end});
         if (marker == kScan && ++scans > kMostScans)
             throw RefusedInput(fmt::format("it has more than {} scans", kMostScans));
     });

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cstddef>
 #include <map>
-#include <new>
 #include <set>
 #include <utility>
 
@@ -16,8 +15,6 @@ namespace etendue::oiio {
 
 namespace {
 
-/// More than any program writes, so that a header full of parts ends.
-constexpr int kMostParts = 4096;
 constexpr std::size_t kMostLayers = 65536;
 
 struct Channel {
@@ -164,7 +161,7 @@ LayeredImage read_layers(const EncodedImage& encoded) {
         const std::string name = image.spec.get_string_attribute("oiio:subimagename");
         names.push_back(name.empty() ? fmt::format("part{}", image.part) : name);
         add_part(image, result);
-    } while (image.part + 1 < kMostParts && seek_part(image, image.part + 1));
+    } while (seek_part(image, image.part + 1));
     try {
         require_all_parts(image);
     } catch (const IoError& error) {
@@ -179,19 +176,14 @@ LayeredImage read_layers(const EncodedImage& encoded) {
 }
 
 ImageF read_layer(const EncodedImage& encoded, const ImageLayer& layer) {
-    try {
-        OpenImage image = open_image(encoded, layer.part);
-        for (std::size_t i = 0; i < layer.channels.size(); ++i)
-            if (layer.indices[i] >= image.spec.nchannels ||
-                image.spec.channel_name(layer.indices[i]) != layer.channels[i])
-                throw IoError(fmt::format("it has no channel '{}' any more", layer.channels[i]));
-        seek_level(image, {image.spec.width, image.spec.height}, 0);
-        ImageF pixels(image.spec.width, image.spec.height, static_cast<int>(layer.channels.size()));
-        if (!read_channels(image, layer.indices, pixels)) throw_library_error(*image.input, "the pixels are broken");
-        return pixels;
-    } catch (const std::bad_alloc&) {
-        throw IoError("not enough memory to decode the image");
-    }
+    OpenImage image = open_image(encoded, layer.part);
+    for (std::size_t i = 0; i < layer.channels.size(); ++i)
+        if (layer.indices[i] >= image.spec.nchannels || image.spec.channel_name(layer.indices[i]) != layer.channels[i])
+            throw IoError(fmt::format("it has no channel '{}' any more", layer.channels[i]));
+    seek_level(image, {image.spec.width, image.spec.height}, 0);
+    ImageF pixels(image.spec.width, image.spec.height, static_cast<int>(layer.channels.size()));
+    if (!read_channels(image, layer.indices, pixels)) throw_library_error(*image.input, "the pixels are broken");
+    return pixels;
 }
 
 }  // namespace etendue::oiio

@@ -3,11 +3,18 @@
 #include "core/error.h"
 #include "core/refused_input.h"
 #include "oiio/library_setup.h"
+#include "oiio/shown_bytes.h"
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <limits>
+#include <new>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -81,11 +88,29 @@ std::optional<std::array<float, 8>> chromaticities_of(const OIIO::ImageSpec& spe
     return values;
 }
 
+/// True if the library, or one behind it, has got no memory: OpenEXR, libjpeg, or libpng and libtiff.
+bool tells_of_memory(std::string_view reason) {
+    constexpr std::array<std::string_view, 3> kWords{"std::bad_alloc", "nsufficient memory", "ut of memory"};
+    return std::ranges::any_of(kWords, [&](auto words) { return reason.find(words) != std::string_view::npos; });
+}
+
+/// Returns what the library reads `encoded` through, of which `name` is the file; null if that is all of a file.
+std::unique_ptr<OIIO::Filesystem::IOProxy> bytes_to_show(const EncodedImage& encoded, const std::string& name) {
+    using namespace OIIO::Filesystem;
+    std::unique_ptr<IOProxy> bytes;
+    if (const auto* memory = std::get_if<std::span<const std::byte>>(&encoded.source))
+        bytes = std::make_unique<IOMemReader>(memory->data(), memory->size());
+    if (encoded.pieces.empty()) return bytes;
+    if (!bytes) bytes = std::make_unique<IOFile>(name, IOProxy::Read);
+    return std::make_unique<ShownBytes>(std::move(bytes), encoded.pieces);
+}
+
 }  // namespace
 
 void throw_library_error(const OIIO::ImageInput& input, std::string_view what) {
     std::string reason = input.geterror();
     if (reason.empty()) reason = OIIO::geterror();
+    if (tells_of_memory(reason)) throw std::bad_alloc();
     throw IoError(reason.empty() ? std::string(what) : fmt::format("{}: {}", what, reason));
 }
 
@@ -98,13 +123,11 @@ OpenImage open_unchecked(const EncodedImage& encoded) {
     if (!image.input) throw IoError(OIIO::geterror());
     image.input->threads(1);
 
-    std::string name = "memory." + std::string(image.format.name);
-    if (const auto* bytes = std::get_if<std::span<const std::byte>>(&encoded.source)) {
-        image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes->data(), bytes->size());
-        if (!image.input->set_ioproxy(image.memory.get())) throw_library_error(*image.input, "cannot read from memory");
-    } else {
-        name = std::get<std::filesystem::path>(encoded.source).string();
-    }
+    const auto* const path = std::get_if<std::filesystem::path>(&encoded.source);
+    const std::string name = path != nullptr ? path->string() : "memory." + std::string(image.format.name);
+    image.bytes = bytes_to_show(encoded, name);
+    if (image.bytes && !image.input->set_ioproxy(image.bytes.get()))
+        throw_library_error(*image.input, "cannot read from memory");
     OIIO::ImageSpec request;
     request.attribute("oiio:UnassociatedAlpha", 1);
     if (!image.input->open(name, image.spec, request)) throw_library_error(*image.input, "the header is broken");
@@ -113,6 +136,7 @@ OpenImage open_unchecked(const EncodedImage& encoded) {
 }
 
 bool seek_part(OpenImage& image, int part) {
+    if (part >= kMostParts) return false;
     if (!image.input->seek_subimage(part, 0)) return false;
     image.part = part;
     image.spec = image.input->spec();

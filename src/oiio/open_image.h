@@ -15,7 +15,8 @@
 namespace etendue::oiio {
 
 struct OpenImage {
-    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives `input`, which reads through it
+    std::unique_ptr<OIIO::Filesystem::IOProxy>
+        bytes;  // outlives `input`, which reads through it; null for a whole file
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;  ///< the header of `part`, as the library has it
     EncodedFormat format;
@@ -31,7 +32,7 @@ struct OpenImage {
 
 /// Opens the first part of a file, whose header may claim anything; bytes in memory must outlive the result.
 [[nodiscard]] OpenImage open_unchecked(const EncodedImage& encoded);
-/// Goes on with another part, whose header may claim anything. Returns false if there is none.
+/// Goes on with another part, whose header may claim anything. Returns false if there is none, or kMostParts before it.
 [[nodiscard]] bool seek_part(OpenImage& image, int part);
 
 /// Throws IoError if `seek_part` has failed for another reason than that there are no more parts. Of EXR files only:
@@ -67,7 +68,8 @@ struct ChannelRange {
 /// Returns whether `channel_range` is the selected channels in their order, so that nothing has to be picked.
 [[nodiscard]] bool channels_in_order(const OpenImage& image);
 
-/// Throws IoError with the library's reason.
+/// Throws IoError with the library's reason, or std::bad_alloc if that is a lack of memory, which is no fault of the
+/// image.
 [[noreturn]] void throw_library_error(const OIIO::ImageInput& input, std::string_view what);
 
 template <typename T>

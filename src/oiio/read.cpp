@@ -1,9 +1,5 @@
-#include "core/error.h"
-#include "core/refused_input.h"
 #include "oiio/functions.h"
 #include "oiio/open_image.h"
-
-#include <new>
 
 namespace etendue::oiio {
 
@@ -26,12 +22,8 @@ Image<T> read_level(OpenImage& open, const ImageLevel& size, int level) {
 
 template <typename T>
 Image<T> read_image(const EncodedImage& image) {
-    try {
-        OpenImage open = open_image(image);
-        return read_level<T>(open, {open.spec.width, open.spec.height}, 0);
-    } catch (const std::bad_alloc&) {
-        throw RefusedInput("not enough memory to decode the image");
-    }
+    OpenImage open = open_image(image);
+    return read_level<T>(open, {open.spec.width, open.spec.height}, 0);
 }
 
 NativeImage read_native_level(OpenImage& open, const ImageLevel& size, int level, TexelDepth depth) {
@@ -63,18 +55,14 @@ Image8 read_image_8bit(const EncodedImage& image) {
 }
 
 std::vector<NativeImage> read_image_levels(const EncodedImage& image) {
-    try {
-        OpenImage open = open_image(image);
-        const TexelDepth depth = describe(open).depth;
-        const std::vector<ImageLevel> sizes = levels_of(open);
-        std::vector<NativeImage> levels;
-        levels.reserve(sizes.size());
-        for (std::size_t i = 0; i < sizes.size(); ++i)
-            levels.push_back(read_native_level(open, sizes[i], static_cast<int>(i), depth));
-        return levels;
-    } catch (const std::bad_alloc&) {
-        throw RefusedInput("not enough memory to decode the image");
-    }
+    OpenImage open = open_image(image);
+    const TexelDepth depth = describe(open).depth;
+    const std::vector<ImageLevel> sizes = levels_of(open);
+    std::vector<NativeImage> levels;
+    levels.reserve(sizes.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        levels.push_back(read_native_level(open, sizes[i], static_cast<int>(i), depth));
+    return levels;
 }
 
 }  // namespace etendue::oiio

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -68,8 +70,8 @@ void require_same_window(const OpenImage& open, const ImageInfo& first) {
                                   open.spec.get_string_attribute("oiio:subimagename", fmt::format("{}", open.part))));
 }
 
-/// Adds the channels of a part, without pixels, and what its header says.
-void add_channels(const OIIO::ImageSpec& part, ChannelImage& image) {
+/// Adds the channels of a part, without pixels, and what its header says but for what is `known`.
+void add_channels(const OIIO::ImageSpec& part, std::set<std::string>& known, ChannelImage& image) {
     for (int channel = 0; channel < part.nchannels; ++channel) {
         image.channel_names.push_back(part.channel_name(channel));
         const bool is_half = part.channelformat(channel) == OIIO::TypeDesc::HALF;
@@ -77,9 +79,11 @@ void add_channels(const OIIO::ImageSpec& part, ChannelImage& image) {
     }
     for (const OIIO::ParamValue& parameter : part.extra_attribs) {
         const std::string name = parameter.name().string();
-        const auto is_known = [&] { return std::ranges::count(image.attributes, name, &ImageAttribute::name) > 0; };
-        if (is_about_storage(name) || is_known()) continue;
-        if (auto attribute = to_attribute(parameter)) image.attributes.push_back(std::move(*attribute));
+        if (is_about_storage(name) || known.contains(name)) continue;
+        if (auto attribute = to_attribute(parameter)) {
+            known.insert(name);
+            image.attributes.push_back(std::move(*attribute));
+        }
     }
 }
 
@@ -98,33 +102,30 @@ void read_parts(OIIO::ImageInput& input, std::span<const int> channels_of_part, 
 }  // namespace
 
 ChannelImage read_channels(const EncodedImage& encoded) {
-    try {
-        OpenImage open = open_image(encoded);
-        const ImageInfo info = describe(open);
-        ChannelImage image;
-        std::vector<int> channels_of_part;
-        do {
-            require_same_window(open, info);
-            require_floats(open.spec);
-            add_channels(open.spec, image);
-            channels_of_part.push_back(open.spec.nchannels);
-            if (image.channel_names.size() > kMostChannels)
-                throw IoError(fmt::format("it has more than {} channels", kMostChannels));
-        } while (seek_part(open, open.part + 1));
-        require_all_parts(open);
-        require_different(image.channel_names);
-        // All parts together may not claim more than the file can hold, either.
-        open.spec.nchannels = static_cast<int>(image.channel_names.size());
-        open.spec.channelformats.assign(image.channel_names.size(), OIIO::TypeDesc::HALF);
-        require_acceptable(open);
-        image.data_window = info.data_window;
-        image.display_window = info.display_window;
-        image.pixels = ImageF(info.width, info.height, open.spec.nchannels);
-        read_parts(*open.input, channels_of_part, image.pixels);
-        return image;
-    } catch (const std::bad_alloc&) {
-        throw IoError("not enough memory to decode the image");
-    }
+    OpenImage open = open_image(encoded);
+    const ImageInfo info = describe(open);
+    ChannelImage image;
+    std::vector<int> channels_of_part;
+    std::set<std::string> attributes;
+    do {
+        require_same_window(open, info);
+        require_floats(open.spec);
+        add_channels(open.spec, attributes, image);
+        channels_of_part.push_back(open.spec.nchannels);
+        if (image.channel_names.size() > kMostChannels)
+            throw IoError(fmt::format("it has more than {} channels", kMostChannels));
+    } while (seek_part(open, open.part + 1));
+    require_all_parts(open);
+    require_different(image.channel_names);
+    // All parts together may not claim more than the file can hold, either.
+    open.spec.nchannels = static_cast<int>(image.channel_names.size());
+    open.spec.channelformats.assign(image.channel_names.size(), OIIO::TypeDesc::HALF);
+    require_acceptable(open);
+    image.data_window = info.data_window;
+    image.display_window = info.display_window;
+    image.pixels = ImageF(info.width, info.height, open.spec.nchannels);
+    read_parts(*open.input, channels_of_part, image.pixels);
+    return image;
 }
 
 }  // namespace etendue::oiio

@@ -1,5 +1,6 @@
 // OpenEXR files whose headers claim what would take gigabytes.
 #include "core/error.h"
+#include "core/refused_input.h"
 #include "image/layers.h"
 #include "image/read.h"
 
@@ -128,6 +129,38 @@ TEST(ExrClaims, AreRefusedBeforeMemoryIsTaken) {
     }
     std::filesystem::remove(path);
     EXPECT_LT(most_memory() - before, std::int64_t{100} << 20);
+}
+
+TEST(ExrClaims, AreNoMoreThanAnyProgramWrites) {
+    constexpr char kMultiPart = 0x10;
+    const auto attributes = [](int count) {
+        std::string all;
+        for (int i = 0; i < count; ++i) all += attribute("a" + std::to_string(i), "string", "x");
+        return all;
+    };
+    const auto parts = [](int count, const std::string& more) {
+        std::string all;
+        for (int i = 0; i < count; ++i)
+            all += Header{.more = attribute("name", "string", std::to_string(i)) +
+                                  attribute("type", "string", "scanlineimage") +
+                                  attribute("chunkCount", "int", u32(4)) + more}
+                       .text();
+        return all + '\0';
+    };
+    std::string channels;
+    for (int i = 0; i < 70'000; ++i) channels += channel("c" + std::to_string(i));
+    const std::string texts = attribute("s", "stringvector", std::string(std::size_t{4} * 70'000, '\0'));
+    const auto expect_refusal = [](const std::string& file, const std::string& message) {
+        EXPECT_EQ(refusal(file), message);
+        EXPECT_THROW((void)read_image_info(std::as_bytes(std::span(file))), RefusedInput) << message;
+    };
+    EXPECT_EQ(refusal(file_of(Header{.more = attributes(4000)}.text())), "");
+    expect_refusal(file_of(Header{.more = attributes(60'000)}.text()), "it has more than 4096 attributes in one part");
+    expect_refusal(file_of(parts(20, attributes(4000)), kMultiPart),
+                   "it has more than 65536 attributes and texts in them");
+    expect_refusal(file_of(Header{.more = texts}.text()), "it has more than 65536 attributes and texts in them");
+    expect_refusal(file_of(Header{.channels = channels}.text()), "it has more than 65536 channels");
+    expect_refusal(file_of(parts(4097, ""), kMultiPart), "it has more than 4096 parts");
 }
 
 TEST(ExrClaims, EndWithTheFile) {

@@ -2,15 +2,22 @@
 
 #include "core/error.h"
 #include "core/write_file.h"
+#include "image/layers.h"
+#include "image/read_channels.h"
 #include "image/write.h"
 #include "image_test_files.h"
+#include "support/sanitizers.h"
 
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <fstream>
+#include <new>
 #include <random>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace etendue {
 
@@ -261,6 +268,44 @@ TEST(ReadImage, SurvivesDamage) {
             (void)error_of(damaged);
         }
     }
+}
+
+/// While it lives, this process gets no more than `bytes` more memory, as under 'ulimit -v'.
+class MemoryLimit {
+  public:
+    explicit MemoryLimit(rlim_t bytes) {
+        ::getrlimit(RLIMIT_AS, &old_);
+        std::ifstream statm("/proc/self/statm");
+        rlim_t pages = 0;
+        statm >> pages;
+        const rlimit limit{pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes, old_.rlim_max};
+        EXPECT_EQ(::setrlimit(RLIMIT_AS, &limit), 0);
+    }
+    ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &old_); }
+    MemoryLimit(const MemoryLimit&) = delete;
+    MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+  private:
+    rlimit old_{};
+};
+
+TEST(ReadImage, ALackOfMemoryIsNoFaultOfTheImage) {
+    if (test::kHasSanitizers) GTEST_SKIP() << "sanitizers take more address space than can be limited";
+    const TemporaryFolder folder;
+    // 48 MiB of floats, which are never part of what has been freed before.
+    const auto png = write_reference(folder / "a.png", {2048, 2048, 3, OIIO::TypeDesc::UINT8},
+                                     std::vector<std::uint8_t>(std::size_t{2048} * 2048 * 3));
+    const auto exr = write_reference(folder / "a.exr", {2048, 2048, 3, OIIO::TypeDesc::FLOAT},
+                                     std::vector<float>(std::size_t{2048} * 2048 * 3));
+    (void)read_image_float(png);
+    (void)read_image_levels(exr);
+    const LayeredImage layers = read_layers(exr);
+    const MemoryLimit limit(rlim_t{16} << 20);
+    EXPECT_THROW((void)read_image_float(png), std::bad_alloc);
+    EXPECT_THROW((void)read_image_float(exr), std::bad_alloc);
+    EXPECT_THROW((void)read_image_levels(exr), std::bad_alloc);
+    EXPECT_THROW((void)read_channels(exr), std::bad_alloc);
+    EXPECT_THROW((void)read_layer(exr, layers.layers.front()), std::bad_alloc);
 }
 
 TEST(ReadImage, AHalfPngIsAnError) {
