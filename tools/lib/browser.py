@@ -16,6 +16,10 @@ SETTLED = """Promise.race([new Promise((done) => setTimeout(done, 300)),
 TIMEOUT = 60  # seconds for an answer of the browser
 
 
+class NavigatedError(RuntimeError):
+    """The page was loaded anew before it could answer."""
+
+
 class Browser:
     """Chromium's DevTools protocol over a pair of pipes: JSON objects that end in a zero byte."""
 
@@ -69,7 +73,8 @@ class Browser:
         while (message := self.receive(deadline)) is not None:
             if message.get("id") == self.calls:
                 if "error" in message:
-                    raise RuntimeError(f"{method}: {message['error']['message']}")
+                    said = message["error"]["message"]
+                    raise (NavigatedError if "navigated" in said else RuntimeError)(f"{method}: {said}")
                 return message["result"]
             self.events.append(message)
         raise RuntimeError(f"{method}: no answer within {TIMEOUT} s")
@@ -100,10 +105,16 @@ class Browser:
         self.value(SETTLED)
 
     def value(self, expression):
-        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        try:
+            result = self.evaluated(expression)
+        except NavigatedError:  # a page that loads itself again is asked again
+            result = self.evaluated(expression)
         if "exceptionDetails" in result:
             raise RuntimeError(f"tried on the page: {result['exceptionDetails']['exception']['description']}")
         return result["result"].get("value")
+
+    def evaluated(self, expression):
+        return self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
 
     def mouse(self, kind, x, y, **more):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
