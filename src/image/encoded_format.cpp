@@ -13,6 +13,7 @@ using namespace std::string_view_literals;
 // other codecs, Radiance and TIFF. JPEG needs a bit per 8x8 block of the densest component: 512 pixels a byte of up to
 // four channels. OpenEXR's wavelet and DCT codecs pack up to 256 constant lines into a chunk of about a hundred bytes.
 // WebP's prefix codes need no bits at all where all pixels are equal; a picture of 2048 x 2048 of them still passes.
+// The frames of an animation may be smaller than its canvas, of which the decoder holds several.
 constexpr std::array kFormats{
     EncodedFormat{"png", "\x89PNG\r\n\x1a\n"sv, 1100},
     EncodedFormat{"jpeg", "\xff\xd8\xff"sv, 2100},
@@ -37,6 +38,17 @@ int png_bits_per_pixel(std::span<const std::byte> head) {
     return type < kSamples.size() ? static_cast<int>(head[kDepth]) * kSamples[type] : 0;
 }
 
+constexpr std::int64_t kAnimationExpansion = 1100;
+
+/// Returns whether the features that `head` lists have an animation among them (WebP container, "Extended File
+/// Format").
+bool is_animated_webp(std::span<const std::byte> head) {
+    constexpr std::size_t kExtended = 15, kFeatures = 20;
+    constexpr std::byte kAnimation{0x02};
+    return head.size() > kFeatures && head[kExtended] == std::byte{'X'} &&
+           (head[kFeatures] & kAnimation) != std::byte{};
+}
+
 }  // namespace
 
 std::optional<EncodedFormat> detect_format(std::span<const std::byte> head) {
@@ -51,6 +63,7 @@ std::optional<EncodedFormat> detect_format(std::span<const std::byte> head) {
         if (!has(format.magic, 0) || (!format.magic_at_8.empty() && !has(format.magic_at_8, 8))) continue;
         EncodedFormat found = format;
         if (found.name == "png") found.bits_per_pixel = png_bits_per_pixel(head);
+        if (found.name == "webp" && is_animated_webp(head)) found.max_expansion = kAnimationExpansion;
         return found;
     }
     return std::nullopt;

@@ -21,7 +21,7 @@ std::vector<unsigned char> encode_jpeg(const ImageF& image, int quality) {
 // ITU-T T.81, annex B.
 bool walk_jpeg_segments(std::span<const std::byte> jpeg,
                         const std::function<void(unsigned marker, std::size_t begin, std::size_t end)>& visit) {
-    constexpr unsigned kEnd = 0xd9, kStart = 0xd8, kFirstRestart = 0xd0;
+    constexpr unsigned kEnd = 0xd9, kStart = 0xd8, kFirstRestart = 0xd0, kFirstWithLength = 0xc0;
     const auto at = [&](std::size_t i) { return std::to_integer<unsigned>(jpeg[i]); };
     std::size_t i = 0;
     while (i + 3 < jpeg.size()) {
@@ -34,8 +34,8 @@ bool walk_jpeg_segments(std::span<const std::byte> jpeg,
             ++i;
         } else if (marker == kEnd) {
             return true;
-        } else if (marker < 2 || (marker >= kFirstRestart && marker <= kStart)) {
-            i += 2;  // stands alone, or is a coded 0xff
+        } else if (marker < kFirstWithLength || (marker >= kFirstRestart && marker <= kStart)) {
+            i += 2;  // stands alone, is a coded 0xff or is reserved, where libjpeg looks for the next
         } else {
             const std::size_t begin = i;
             i += 2 + ((at(i + 2) << 8) | at(i + 3));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -46,7 +47,8 @@ std::optional<std::string_view> take_line(std::string_view& text) {
 float positive_number(std::string_view text, std::string_view what) {
     float value = 0.0f;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value > 0.0f) || !std::isfinite(value))
+    if (error != std::errc() || end != text.data() + text.size() || !(value >= std::numeric_limits<float>::min()) ||
+        !std::isfinite(value))
         throw IoError(fmt::format("its header's {} is not a number above 0", what));
     return value;
 }
@@ -106,13 +108,20 @@ RadianceHeader parse_radiance_header(std::span<const std::byte> file) {
         if (!line) throw IoError("its header has no end");
         return *line;
     };
-    for (std::string_view line = next_line(); !trimmed(line).empty(); line = next_line()) read_variable(line, header);
+    // OpenImageIO looks for FORMAT in lines of less than 128 bytes, of which it reads 100.
+    constexpr std::size_t kLongestLine = 100, kMostLines = 50;
+    std::size_t lines = 0;
+    bool is_short = true;
+    for (std::string_view line = next_line(); !trimmed(line).empty(); line = next_line()) {
+        read_variable(line, header);
+        is_short = is_short && line.size() <= kLongestLine && ++lines <= kMostLines;
+    }
     for (const float factor : {header.exposure.r, header.exposure.g, header.exposure.b})
         if (!(factor > 0.0f) || !std::isfinite(factor)) throw IoError("its header's exposures multiply to no number");
     read_size(next_line(), header);
     header.size = all.size() - text.size();
     const std::string_view read = all.substr(0, header.size);
-    header.is_plain = !header.by_columns && !header.from_bottom && !header.from_right && !header.is_xyz &&
+    header.is_plain = is_short && !header.by_columns && !header.from_bottom && !header.from_right && !header.is_xyz &&
                       header.exposure == Rgb(1.0f) && read.find('\r') == std::string_view::npos &&
                       read.find(fmt::format("\nFORMAT={}\n", kRgbFormat)) != std::string_view::npos;
     return header;

@@ -79,6 +79,16 @@ void check_name(std::string_view name) {
     }
 }
 
+/// True if `check_name` accepts the name.
+bool is_name(std::string_view name) {
+    try {
+        check_name(name);
+        return true;
+    } catch (const IoError&) {
+        return false;
+    }
+}
+
 /// `name` without letters that have an accent, whether that is part of the letter or follows it (U+0300 to U+036F).
 std::string without_accents(std::string_view name) {
     std::string plain;
@@ -125,6 +135,57 @@ bool is_inside(const fs::path& directory, const fs::path& file) {
     return in_directory == directory.end() && in_file != file.end();
 }
 
+/// There is nothing under the name.
+class MissingFile : public IoError {
+  public:
+    using IoError::IoError;
+};
+
+/// Does what `resolve_name` does, and says of `directory` that it is `what`; throws MissingFile if there is no file.
+fs::path resolve_below(const fs::path& directory, std::string_view name, std::string_view what) {
+    check_name(name);
+    std::error_code code;
+    const fs::path root = fs::canonical(directory.empty() ? fs::path(".") : directory, code);
+    if (code) {
+        const std::string message = fmt::format("{} cannot be read: {}", what, code.message());
+        if (code == std::errc::no_such_file_or_directory) throw MissingFile(message);
+        throw IoError(message);
+    }
+    fs::path file = fs::weakly_canonical(root / fs::path(name), code);
+    if (code) throw IoError("the file cannot be reached: " + code.message());
+    if (file != root && !is_inside(root, file))
+        throw RefusedInput(fmt::format("a symbolic link leads out of {}", what));
+
+    const fs::file_status status = fs::status(file, code);
+    if (fs::is_symlink(fs::symlink_status(file, code)) && !fs::exists(status))
+        throw IoError("a symbolic link leads to a file that does not exist");
+    if (!fs::exists(status))
+        throw MissingFile(fmt::format("the file does not exist in {}{}", what, similar_file(root, name)));
+    if (!fs::is_regular_file(status)) throw IoError("this is not a regular file");
+    return file;
+}
+
+/// Says why `asset` refuses what it has under `name`, which is read from `directory`; nothing if it has no such file.
+std::string refusal_of(const fs::path& asset, const fs::path& directory, const fs::path& name) {
+    std::error_code code;
+    const fs::path root = fs::canonical(asset, code);
+    std::vector<fs::path> names;  // in `asset`
+    if (is_name(name.string())) names.push_back(name);
+    // An absolute path may be spelled as one below it and lead elsewhere.
+    for (const fs::path& file : {directory / name, fs::weakly_canonical(directory / name, code)})
+        if (!root.empty() && is_inside(root, file)) names.push_back(file.lexically_relative(root));
+    for (const fs::path& below : names) {
+        try {
+            static_cast<void>(resolve_below(asset, below.string(), "this directory"));
+        } catch (const MissingFile&) {
+            // Another directory may have it.
+        } catch (const IoError& error) {
+            return error.what();
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string lower_extension(const fs::path& file) {
@@ -134,18 +195,7 @@ std::string lower_extension(const fs::path& file) {
 }
 
 fs::path resolve_name(const fs::path& directory, std::string_view name) {
-    check_name(name);
-    std::error_code code;
-    const fs::path root = fs::canonical(directory.empty() ? fs::path(".") : directory, code);
-    if (code) throw IoError("the scene directory cannot be read: " + code.message());
-    fs::path file = fs::weakly_canonical(root / fs::path(name), code);
-    if (code) throw IoError("the file cannot be reached: " + code.message());
-    if (file != root && !is_inside(root, file)) throw RefusedInput("a symbolic link leads out of the scene directory");
-
-    const fs::file_status status = fs::status(file, code);
-    if (!fs::exists(status)) throw IoError("the file does not exist in the scene directory" + similar_file(root, name));
-    if (!fs::is_regular_file(status)) throw IoError("this is not a regular file");
-    return file;
+    return resolve_below(directory, name, "the scene directory");
 }
 
 fs::path resolve_asset(const fs::path& directory, std::span<const fs::path> assets, std::string_view name) {
@@ -162,6 +212,10 @@ fs::path resolve_asset(const fs::path& directory, std::span<const fs::path> asse
             } catch (const IoError&) {
             }
         }
+        for (const fs::path& asset : assets)
+            if (const std::string refusal = refusal_of(asset, directory, name); !refusal.empty())
+                throw IoError(fmt::format("{}; in '{}' of --assets and $ETENDUE_ASSETS: {}", error.what(),
+                                          asset.string(), refusal));
         throw IoError(std::string(error.what()) +
                       (assets.empty() ? "; --assets DIR names a directory outside of it from which it may come"
                                       : "; it is in none of the directories of --assets and $ETENDUE_ASSETS either"));

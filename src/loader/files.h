@@ -31,7 +31,7 @@ inline constexpr std::uintmax_t kMaxBufferBytes = std::uintmax_t{1} << 33;
 
 /// The regular file that `name` is below `directory` or, if it is not there, below one of `assets`, with symbolic links
 /// resolved: `name` may lead there from `directory`, as an absolute path or from one of `assets`, the first that has
-/// it. Throws IoError as `resolve_name`.
+/// it. Throws IoError as `resolve_name`, also with the reason why the first of `assets` that has it refuses it.
 [[nodiscard]] std::filesystem::path resolve_asset(const std::filesystem::path& directory,
                                                   std::span<const std::filesystem::path> assets, std::string_view name);
 

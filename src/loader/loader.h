@@ -89,7 +89,8 @@ inline constexpr std::string_view kSettingsName = "render.json";
 
 /// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or glTF files, also
 /// inside another one. Loading says of those with several files that one must be named. Links to directories are
-/// followed, but for those in a scene directory and those that lead up. Throws SceneError if `root` is no directory.
+/// followed, but for those in a scene directory and those that lead up. What cannot be read is among them, so that
+/// loading it says why. Throws SceneError if `root` is no directory.
 [[nodiscard]] std::vector<std::filesystem::path> find_scene_directories(const std::filesystem::path& root);
 
 }  // namespace etendue

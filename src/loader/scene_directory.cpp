@@ -36,14 +36,36 @@ bool has_scene_extension(const fs::path& file) {
     return extension == ".gltf" || extension == ".glb";
 }
 
-/// The glTF files directly in `directory`, sorted.
-std::vector<fs::path> scene_files(const fs::path& directory) {
-    std::vector<fs::path> files;
+/// True if nothing has the name that `code` is about: it is gone, or a link that leads nowhere.
+bool is_missing(const std::error_code& code) {
+    return code == std::errc::no_such_file_or_directory || code == std::errc::not_a_directory ||
+           code == std::errc::too_many_symbolic_link_levels;
+}
+
+/// True for a folder, such as one named after a model, with scenes somewhere in it.
+bool holds_scenes(const fs::path& directory) {
     std::error_code code;
+    for (fs::recursive_directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code))
+        if (has_scene_extension(entry->path()) || entry->path().filename() == kSettingsName) return true;
+    return false;
+}
+
+/// The glTF files directly in `directory`, sorted; `code` says why it cannot be listed. What is no regular file, as a
+/// link to nothing, counts if its name is "scene" or there is nothing else, so that loading it says what it is.
+std::vector<fs::path> scene_files(const fs::path& directory, std::error_code& code) {
+    std::vector<fs::path> files;
+    std::vector<fs::path> others;
     for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
         std::error_code ignored;
-        if (has_scene_extension(entry->path()) && entry->is_regular_file(ignored)) files.push_back(entry->path());
+        if (!has_scene_extension(entry->path())) continue;
+        if (entry->is_regular_file(ignored))
+            files.push_back(entry->path());
+        else if (!entry->is_directory(ignored) || !holds_scenes(entry->path()))
+            others.push_back(entry->path());
     }
+    const bool has_files = !files.empty();
+    std::ranges::copy_if(others, std::back_inserter(files),
+                         [&](const fs::path& other) { return !has_files || other.stem() == "scene"; });
     std::ranges::sort(files);
     return files;
 }
@@ -66,13 +88,14 @@ fs::path choose_scene_file(const fs::path& directory, const std::string& wanted,
             throw SceneError({settings.file, "/scene"}, fmt::format("'{}': {}", wanted, error.what()));
         }
     }
-    const std::vector<fs::path> files = scene_files(directory);
+    std::error_code code;
+    const std::vector<fs::path> files = scene_files(directory, code);
+    if (code) throw SceneError({directory.string(), {}}, "cannot be read: " + code.message());
     if (files.empty()) {
         std::vector<fs::path> below = find_scene_directories(directory);
         std::erase(below, directory);
         if (below.empty()) throw SceneError({directory.string(), {}}, "there is no glTF file in this directory");
         const std::string first = below.front().string();
-        std::error_code code;
         if (fs::exists(directory / kSettingsName, code))
             throw SceneError({(directory / kSettingsName).string(), {}},
                              fmt::format("this file belongs beside a glTF file, and there is none; scenes below, such "
@@ -161,7 +184,11 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
                ProblemList& problems) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
-    if (!fs::exists(path, code)) throw SceneError({path.string(), {}}, "there is no such file or directory");
+    if (!fs::exists(path, code)) {
+        const bool is_unknown = code && code != std::errc::no_such_file_or_directory;
+        throw SceneError({path.string(), {}},
+                         is_unknown ? "cannot be read: " + code.message() : "there is no such file or directory");
+    }
 
     scene.directory = directory_of(path, is_directory);
     scene.name = scene_name(path);
@@ -252,7 +279,7 @@ std::vector<fs::path> find_inputs(const fs::path& path, std::span<const fs::path
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
     const fs::path directory = directory_of(path, is_directory);
-    std::vector<fs::path> files = is_directory ? scene_files(path) : std::vector{path};
+    std::vector<fs::path> files = is_directory ? scene_files(path, code) : std::vector{path};
     files.push_back(directory / kSettingsName);
     for (std::size_t i = files.size(); i-- > 0;)
         for (const std::string& name : named_files(files[i])) {
@@ -278,12 +305,20 @@ std::vector<fs::path> find_scene_directories(const fs::path& root) {
         }
         const fs::path directory = std::move(pending.back());
         pending.pop_back();
-        if (!visited.insert(fs::canonical(directory, code)).second) continue;
-        const bool is_scene = fs::exists(directory / kSettingsName, code) || !scene_files(directory).empty();
+        const fs::path called = fs::canonical(directory, code);
+        if (!visited.insert(code ? directory : called).second) continue;
+        const bool has_files = !scene_files(directory, code).empty();
+        // Loading one that cannot be listed says so.
+        bool is_scene = has_files || (code && !is_missing(code));
+        is_scene = fs::exists(directory / kSettingsName, code) || is_scene;
         if (is_scene) found.push_back(directory);
         for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
+            std::error_code unknown;
+            if (!entry->is_directory(unknown)) {
+                if (unknown && !is_missing(unknown) && !is_scene) found.push_back(entry->path());
+                continue;
+            }
             std::error_code ignored;
-            if (!entry->is_directory(ignored)) continue;
             if (!entry->is_symlink(ignored))
                 pending.push_back(entry->path());
             else if (!is_scene && !leads_up(entry->path()))  // a scene's own links lead to its files

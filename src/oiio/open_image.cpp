@@ -107,6 +107,10 @@ std::unique_ptr<OIIO::Filesystem::IOProxy> bytes_to_show(const EncodedImage& enc
 
 }  // namespace
 
+bool are_read(const OIIO::ImageInput& input, bool read) {
+    return read && !input.has_error();
+}
+
 void throw_library_error(const OIIO::ImageInput& input, std::string_view what) {
     std::string reason = input.geterror();
     if (reason.empty()) reason = OIIO::geterror();

@@ -68,6 +68,10 @@ struct ChannelRange {
 /// Returns whether `channel_range` is the selected channels in their order, so that nothing has to be picked.
 [[nodiscard]] bool channels_in_order(const OpenImage& image);
 
+/// Returns whether the pixels that were just read are there, where `read` is what the library returned: of broken
+/// strips of a TIFF, it only keeps an error.
+[[nodiscard]] bool are_read(const OIIO::ImageInput& input, bool read);
+
 /// Throws IoError with the library's reason, or std::bad_alloc if that is a lack of memory, which is no fault of the
 /// image.
 [[noreturn]] void throw_library_error(const OIIO::ImageInput& input, std::string_view what);

@@ -75,8 +75,8 @@ class DecodedPieces final : public ImagePieces {
     }
 
     void finish(bool read, std::size_t pixel_count, std::span<float> values) {
-        is_broken_ = !read;
-        if (!read) throw_library_error(*image_.input, "the pixels are broken");
+        is_broken_ = !are_read(*image_.input, read);
+        if (is_broken_) throw_library_error(*image_.input, "the pixels are broken");
         if (!channels_in_order(image_)) pick_channels(image_, stored_.data(), pixel_count, values.data());
     }
 

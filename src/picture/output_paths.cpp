@@ -80,11 +80,24 @@ void require_inputs_kept(std::string_view option, std::span<const std::filesyste
 
 std::filesystem::path written_file(const std::filesystem::path& file) {
     constexpr int kMostLinks = 40;  // as the kernel
-    std::filesystem::path target = std::filesystem::absolute(file);
+    std::error_code code;
+    const auto require = [&](bool known) {
+        if (!known) throw IoError(fmt::format("cannot write {}: {}", file.string(), code.message()));
+    };
+    std::filesystem::path target = std::filesystem::absolute(file, code);
+    require(!code);
     // Also of a link that leads to nothing: it will, as soon as another name has made what it leads to.
-    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target); ++i)
-        target = target.parent_path() / std::filesystem::read_symlink(target);
-    return std::filesystem::weakly_canonical(target);
+    for (int i = 0; i < kMostLinks; ++i) {
+        const std::filesystem::file_status status = std::filesystem::symlink_status(target, code);
+        require(std::filesystem::status_known(status));
+        if (!std::filesystem::is_symlink(status)) break;
+        const std::filesystem::path next = std::filesystem::read_symlink(target, code);
+        require(!code);
+        target = target.parent_path() / next;
+    }
+    target = std::filesystem::weakly_canonical(target, code);
+    require(!code);
+    return target;
 }
 
 }  // namespace etendue

@@ -243,9 +243,12 @@ void TextureCompiler::warn_of_cut_images(std::span<const std::uint8_t> is_cut, P
     std::set<const ImageDesc*> cut;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
         const ImageDesc& image = image_of(requests_[i]);
-        if (is_cut[i] == 1 && cut.insert(&image).second)
-            problems.warning(image.location,
-                             fmt::format("the data of {} ends early: the rest of it is made up", name_of(image)));
+        if (is_cut[i] != 1 || !cut.insert(&image).second) continue;
+        const std::string message = fmt::format("the data of {} ends early", name_of(image));
+        if (scene_.settings.missing_textures == MissingTextures::Error)
+            problems.error(image.location, message);
+        else
+            problems.warning(image.location, message + ": the rest of it is made up");
     }
 }
 

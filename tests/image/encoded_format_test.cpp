@@ -25,6 +25,15 @@ TEST(DetectFormat, KnowsFormatsByTheirFirstBytes) {
     for (const std::string_view tiff : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) EXPECT_EQ(name_of(tiff), "tiff");
 }
 
+TEST(DetectFormat, AnimationsStandForFewerPixels) {
+    const auto expansion = [](std::string_view head) {
+        return detect_format(std::as_bytes(std::span(head)))->max_expansion;
+    };
+    const std::int64_t still = expansion("RIFF....WEBPVP8X\x0a\0\0\0\x10\0\0\0......"sv);
+    EXPECT_EQ(still, expansion("RIFF....WEBPVP8L................"sv));
+    EXPECT_LT(expansion("RIFF....WEBPVP8X\x0a\0\0\0\x12\0\0\0......"sv), still / 100);
+}
+
 TEST(DetectFormat, KnowsNothingElse) {
     EXPECT_EQ(name_of(""), "");
     EXPECT_EQ(name_of("\x89PN"), "") << "a cut magic number is none";

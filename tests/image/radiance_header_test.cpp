@@ -88,6 +88,15 @@ TEST(RadianceHeader, LineEndsOfOtherSystemsAndNoFormatAreRead) {
     }
 }
 
+TEST(RadianceHeader, LongLinesAndManyAreRead) {
+    std::string many;
+    for (int i = 0; i < 300; ++i) many += "# pcomb\n";
+    for (const std::string& history : {std::string(127, '#') + "\n", std::string(600, '#') + "\n", many}) {
+        const ImageF image = read("#?RADIANCE\n" + history + "FORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 2\n");
+        EXPECT_FLOAT_EQ(image.pixel(0, 0)[0], 1.0f) << history.size();
+    }
+}
+
 TEST(RadianceHeader, PiecesAreThoseOfTheWholePicture) {
     const std::vector<std::byte> file = picture("#?RADIANCE\nEXPOSURE=2\n\n+X 3 -Y 2\n", kWhite);
     const ImageF whole = read_image_float(std::span(file));

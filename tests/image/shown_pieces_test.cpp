@@ -171,6 +171,9 @@ TEST(ShownPieces, ScansOfAJpegAreCounted) {
     EXPECT_EQ(shown_of_jpeg(with_scans(64)), with_scans(64));
     EXPECT_THROW((void)shown_of_jpeg(with_scans(65)), RefusedInput);
     EXPECT_THROW((void)read_image_info(bytes_in(with_scans(65))), RefusedInput);
+    const std::string behind_reserved = "\xff\xd8" + segment(0xda, "") + "\xff\x02\xff\xff\xff\xd0" +
+                                        repeated(segment(0xda, "") + "abc", 100) + "\xff\xd9";
+    EXPECT_THROW((void)shown_of_jpeg(behind_reserved), RefusedInput);
 }
 
 struct TiffKind {
@@ -264,6 +267,17 @@ TEST(ShownPieces, XmpOfATiffIsHidden) {
         EXPECT_EQ(read_image_8bit(folder / "a.tif").pixels, expected) << name;
         EXPECT_EQ(read_layers(folder / "a.tif").parts.size(), 3u) << name;
     }
+}
+
+TEST(ShownPieces, StripsThatATiffDoesNotHaveAreAnError) {
+    const TiffKind kind;
+    std::string file = tiff(kind, {});
+    const std::string entry = kind.text(273, 2) + kind.text(kLong, 2) + kind.text(1, 4);
+    const std::size_t place = file.find(entry);
+    ASSERT_NE(place, std::string::npos);
+    EXPECT_EQ(read_image_8bit(bytes_in(file)).pixels.size(), 16u);
+    file.replace(place + entry.size(), 4, kind.text(1'000'000'000, 4));
+    EXPECT_THROW((void)read_image_8bit(bytes_in(file)), IoError);
 }
 
 TEST(ShownPieces, TagsOfATiffClaimNoMoreThanThereIs) {

@@ -180,11 +180,42 @@ TEST(ResolveAsset, ReadsNothingFromElsewhere) {
     };
     const std::vector<std::filesystem::path> one{assets.path()};
     const std::vector<std::filesystem::path> missing{scene.path() / "nowhere"};
-    for (const std::string& name : {secret.string(), "../" + elsewhere.path().filename().string() + "/secret.exr",
-                                    std::string("link.exr"), std::string("absent.exr")}) {
+    for (const std::string& name :
+         {secret.string(), "../" + elsewhere.path().filename().string() + "/secret.exr", std::string("absent.exr")}) {
         EXPECT_NE(refusal_of(name, one).find("in none of the directories of --assets"), std::string::npos) << name;
         EXPECT_NE(refusal_of(name, missing).find("in none of the directories"), std::string::npos) << name;
         EXPECT_NE(refusal_of(name, {}).find("; --assets DIR names"), std::string::npos) << name;
+    }
+    const std::string outward = refusal_of("link.exr", one);
+    EXPECT_NE(outward.find("a symbolic link leads out of this directory"), std::string::npos) << outward;
+}
+
+TEST(ResolveAsset, SaysWhyADirectoryRefusesWhatItHas) {
+    const TempDir scene;
+    const TempDir empty;
+    const TempDir assets;
+    std::filesystem::create_directory(assets.path() / "folder.exr");
+    std::filesystem::create_symlink("loop.exr", assets.path() / "loop.exr");
+    std::filesystem::create_symlink("nothing", assets.path() / "dangling.exr");
+    ASSERT_EQ(mkfifo((assets.path() / "pipe.exr").c_str(), 0600), 0);
+    const std::vector<std::filesystem::path> directories{empty.path(), assets.path()};
+    const std::pair<std::string, const char*> cases[] = {
+        {"folder.exr", "this is not a regular file"},
+        {"pipe.exr", "this is not a regular file"},
+        {"loop.exr", "cannot be reached"},
+        {"dangling.exr", "leads to a file that does not exist"},
+        {(assets.path() / "pipe.exr").string(), "this is not a regular file"},
+        {(assets.path() / "loop.exr").string(), "cannot be reached"},
+    };
+    for (const auto& [name, reason] : cases) {
+        try {
+            ADD_FAILURE() << resolve_asset(scene.path(), directories, name);
+        } catch (const IoError& error) {
+            const std::string said = error.what();
+            const std::size_t at = said.find("in '" + assets.path().string() + "' of --assets");
+            EXPECT_NE(at, std::string::npos) << said;
+            EXPECT_NE(said.find(reason, at), std::string::npos) << said;
+        }
     }
 }
 

@@ -1,6 +1,10 @@
 #include "loader/gltf/gltf_builder.h"
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace etendue {
 namespace {
@@ -191,6 +195,97 @@ TEST(FindSceneDirectories, FindsThemSortedAtEveryDepth) {
                                                   root / "two", root / "two/deeper"}))
         << "loading says of two files in one directory that one must be named";
     EXPECT_EQ(find_scene_directories(root / "b"), (std::vector<std::filesystem::path>{root / "b", root / "b/inner"}));
+}
+
+/// Takes the rights of root from this process while it lives, since no permissions apply to root.
+class WithoutRootRights {
+  public:
+    WithoutRootRights() : user_(geteuid()) {
+        constexpr uid_t kNobody = 65534;
+        if (user_ == 0 && seteuid(kNobody) != 0) return;
+        applies_ = geteuid() != 0;
+    }
+    ~WithoutRootRights() {
+        if (seteuid(user_) != 0) std::abort();
+    }
+    WithoutRootRights(const WithoutRootRights&) = delete;
+    WithoutRootRights& operator=(const WithoutRootRights&) = delete;
+
+    [[nodiscard]] bool applies() const { return applies_; }
+
+  private:
+    uid_t user_;
+    bool applies_ = false;
+};
+
+TEST(FindSceneDirectories, FindsWhatCannotBeListedSoThatLoadingSaysWhy) {
+    namespace fs = std::filesystem;
+    const TempDir dir;
+    fs::permissions(dir.path(), fs::perms(0755));
+    dir.write("a/scene.glb", lone_triangle());
+    dir.write("closed/scene.glb", lone_triangle());
+    dir.write("other/inside/scene.glb", lone_triangle());
+    fs::permissions(dir.path() / "closed", fs::perms::none);
+    fs::permissions(dir.path() / "other", fs::perms::none);
+    std::vector<fs::path> found;
+    std::string failure;
+    std::string failure_below;
+    bool can_try = false;
+    {
+        const WithoutRootRights without;
+        std::error_code code;
+        can_try = without.applies() && fs::exists(dir.path() / "a/scene.glb", code);
+        if (can_try) {
+            found = find_scene_directories(dir.path());
+            failure = failure_to_load(dir.path() / "closed");
+            failure_below = failure_to_load(dir.path() / "other/inside");
+        }
+    }
+    fs::permissions(dir.path() / "closed", fs::perms::owner_all);
+    fs::permissions(dir.path() / "other", fs::perms::owner_all);
+    if (!can_try) GTEST_SKIP() << "permissions do not apply here";
+    EXPECT_EQ(found, (std::vector<fs::path>{dir.path() / "a", dir.path() / "closed", dir.path() / "other"}));
+    EXPECT_NE(failure.find("closed: cannot be read: Permission denied"), std::string::npos) << failure;
+    EXPECT_NE(failure_below.find("inside: cannot be read: Permission denied"), std::string::npos) << failure_below;
+}
+
+TEST(FindSceneDirectories, FindsSceneFilesThatAreNoRegularFilesSoThatLoadingSaysWhy) {
+    namespace fs = std::filesystem;
+    const TempDir dir;
+    for (const char* name : {"dangling", "folder/scene.gltf", "loop", "pipe", "scenes/car.glb/inner"})
+        fs::create_directories(dir.path() / name);
+    fs::create_symlink("nothing", dir.path() / "dangling/scene.gltf");
+    fs::create_symlink("scene.glb", dir.path() / "loop/scene.glb");
+    ASSERT_EQ(mkfifo((dir.path() / "pipe/scene.gltf").c_str(), 0600), 0);
+    dir.write("scenes/car.glb/inner/car.glb", lone_triangle());
+    EXPECT_EQ(find_scene_directories(dir.path()),
+              (std::vector<fs::path>{dir.path() / "dangling", dir.path() / "folder", dir.path() / "loop",
+                                     dir.path() / "pipe", dir.path() / "scenes/car.glb/inner"}))
+        << "a folder with the name of a scene may hold some";
+    const std::pair<const char*, const char*> cases[] = {
+        {"dangling", "scene.gltf: a symbolic link leads to a file that does not exist"},
+        {"folder", "scene.gltf: this is not a regular file"},
+        {"loop", "scene.glb: the file cannot be reached"},
+        {"pipe", "scene.gltf: this is not a regular file"},
+    };
+    for (const auto& [name, reason] : cases) {
+        const std::string failure = failure_to_load(dir.path() / name);
+        EXPECT_NE(failure.find(reason), std::string::npos) << failure;
+    }
+}
+
+TEST(LoadScene, WhatIsNoRegularFileStandsBackUnlessItIsCalledScene) {
+    const TempDir dir;
+    dir.write("room.glb", lone_triangle());
+    std::filesystem::create_symlink("me@here.1", dir.path() / ".#room.glb");  // as an editor's lock
+    EXPECT_EQ(failure_to_load(dir.path()), "");
+    std::filesystem::create_symlink("nothing", dir.path() / "scene.gltf");
+    EXPECT_NE(failure_to_load(dir.path()).find("scene.gltf: a symbolic link"), std::string::npos);
+}
+
+TEST(LoadScene, SaysWhyAPathCannotBeRead) {
+    const std::string failure = failure_to_load("/tmp/" + std::string(300, 'a'));
+    EXPECT_NE(failure.find(": cannot be read: File name too long"), std::string::npos) << failure;
 }
 
 TEST(FindSceneDirectories, NeedsADirectory) {
