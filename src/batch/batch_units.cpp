@@ -57,7 +57,8 @@ std::vector<FoundScene> find_scenes(const std::vector<std::string>& roots) {
             scenes.push_back({scene.lexically_proximate(fs::current_path()), below, name});
             ++uses[name];
         };
-        if (!fs::is_directory(root)) {
+        std::error_code said_by_loading;
+        if (!fs::is_directory(root, said_by_loading)) {
             add(root, root.parent_path(), root.stem().string());
             continue;
         }

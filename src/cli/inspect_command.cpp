@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -222,13 +223,14 @@ nlohmann::json to_json(const Inspection& i) {
 std::vector<std::string> find_scenes(const std::vector<std::string>& paths) {
     std::vector<std::string> scenes;
     for (const std::string& path : paths) {
-        if (!std::filesystem::is_directory(path)) {
+        std::error_code said_by_loading;
+        if (!std::filesystem::is_directory(path, said_by_loading)) {
             scenes.push_back(path);
             continue;
         }
         const std::vector<std::filesystem::path> found = find_scene_directories(path);
         // Why there is none, loading will say.
-        if (found.empty() || std::filesystem::equivalent(found.front(), path))
+        if (found.empty() || std::filesystem::equivalent(found.front(), path, said_by_loading))
             scenes.push_back(path);
         else
             for (const std::filesystem::path& scene : found) scenes.push_back(scene.string());
