@@ -51,6 +51,13 @@ TEST(Jpeg, IsCutOffWithoutItsEndMarker) {
     EXPECT_FALSE(is_cut_jpeg(std::as_bytes(std::span("\x89PNG\r\n\x1a\n"))));
 }
 
+TEST(Jpeg, ThatIsCutOffShowsWhatThereIs) {
+    const ImageF image = wave(50, 30, 3);
+    std::vector<unsigned char> file = encode_jpeg(image, 95);
+    file.resize(file.size() * 3 / 4);
+    EXPECT_NEAR(decode(file).pixel(0, 0)[0], image.pixel(0, 0)[0], 0.05f);
+}
+
 TEST(Jpeg, HoldsTheImage) {
     for (const int channels : {1, 3}) {
         const ImageF image = wave(50, 30, channels);
