@@ -105,7 +105,7 @@ Lock take_lock(int fd) {
     return errno == EWOULDBLOCK ? Lock::Held : Lock::Unknown;
 }
 
-/// A pipe that somebody has made under such a name is nothing to wait for.
+/// Opening waits for nobody, if somebody has made a pipe under such a name.
 constexpr int kOpenFlags = O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
 
 /// The open file if nobody else holds it, else -1. The kernel lets go of the files of the dead; where it knows no

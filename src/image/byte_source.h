@@ -9,7 +9,7 @@
 
 namespace etendue {
 
-/// A file's bytes: fills as much of the span as there is from an offset on, and returns how many bytes that are.
+/// Fills a span with the bytes of a file from an offset on, and returns how many there are.
 using ByteSource = std::function<std::size_t(std::uint64_t offset, std::span<std::uint8_t> bytes)>;
 
 /// Returns the bytes of a file, none if it cannot be opened. A few of them after a few others cost little.

@@ -18,7 +18,7 @@ struct EncodedImage {
     ImageSource source;
     EncodedFormat format;
     std::int64_t size = 0;  ///< bytes
-    /// What of `source` the library is shown; all of it if there are none.
+    /// Lists the pieces of `source` that the library is shown; all of it is if there are none.
     std::vector<FilePiece> pieces{};
     /// How to develop what is decoded, of a Radiance picture that the library would not read as it is meant. Then
     /// `source` is `rewritten`, with a header that it does read.

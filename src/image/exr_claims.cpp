@@ -25,10 +25,10 @@ constexpr std::uint64_t kMostInflation = 1100;
 // Programs write some hundred attributes into a part at most. OpenImageIO looks through all of a part for each of them:
 // 60,000 take it 17 s, and as many as are allowed here a tenth of one at most.
 constexpr std::uint64_t kMostAttributesOfPart = 4096;
-/// In all parts: 16 for each of the most parts. Texts of a list count like attributes, of which each takes as much
-/// memory.
+/// Is the most attributes of all parts: 16 for each of the most parts. Each text of a list counts as one, since it
+/// takes as much memory.
 constexpr std::uint64_t kMostAttributes = 65536;
-/// In all parts: as many as a file may have layers.
+/// Is the most channels of all parts: as many as a file may have layers.
 constexpr std::uint64_t kMostListedChannels = 65536;
 
 std::uint64_t saturated_product(std::uint64_t a, std::uint64_t b) {
@@ -99,7 +99,7 @@ void read_window(ValueReader value, Part& part) {
     part.height = static_cast<std::uint64_t>(std::max<std::int64_t>(0, y1 - y0 + 1));
 }
 
-/// What is counted over all headers of a file.
+/// Holds what is counted over all headers of a file.
 struct Counts {
     std::uint64_t parts = 0;
     std::uint64_t attributes = 0;

@@ -58,8 +58,8 @@ struct ImageInfo {
 /// before any memory is taken.
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 inline constexpr int kMaxImageSide = 65536;
-/// Parts of a multi-part EXR, or pages of a TIFF: more than any program writes. An EXR with more is refused, and of a
-/// TIFF no more are read.
+/// Is the most parts of an EXR, or pages of a TIFF: more than any program writes. An EXR with more is refused; further
+/// pages of a TIFF are not read.
 inline constexpr int kMostParts = 4096;
 
 /// Where encoded pixels come from: a file, or bytes in memory. PNG, JPEG, WebP, OpenEXR, Radiance HDR and TIFF are

@@ -18,7 +18,7 @@ namespace etendue {
 
 namespace {
 
-/// Bytes [begin, end) of a file.
+/// Holds a range of bytes, [begin, end), of a file.
 struct ByteRange {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
@@ -34,7 +34,7 @@ void add_range(std::vector<ByteRange>& ranges, const ByteRange& range) {
 
 enum class HiddenBytes { LeftOut, Blank };
 
-/// What of a file of `size` bytes is shown if `ranges`, in ascending order, are not.
+/// Returns the pieces of a file of `size` bytes that are shown if `ranges`, in ascending order, are not.
 std::vector<FilePiece> pieces_around(std::span<const ByteRange> ranges, std::uint64_t size, HiddenBytes hidden) {
     std::vector<FilePiece> pieces;
     if (ranges.empty()) return pieces;
@@ -49,7 +49,7 @@ std::vector<FilePiece> pieces_around(std::span<const ByteRange> ranges, std::uin
     return pieces;
 }
 
-/// The number that `bytes`, at most eight, are.
+/// Returns the number that `bytes`, at most eight, stand for.
 std::uint64_t number_of(std::span<const std::uint8_t> bytes, bool is_big_endian) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < bytes.size(); ++i)
@@ -57,15 +57,15 @@ std::uint64_t number_of(std::span<const std::uint8_t> bytes, bool is_big_endian)
     return value;
 }
 
-/// A chunk that the format demands, or transparency and colours.
+/// Returns whether the format demands the chunk, or it holds transparency or colours.
 bool changes_png(std::string_view chunk) {
     constexpr unsigned char kAncillary = 0x20;
     constexpr std::array<std::string_view, 5> kColors{"tRNS", "gAMA", "cHRM", "sRGB", "iCCP"};
     return (static_cast<unsigned char>(chunk.front()) & kAncillary) == 0 || std::ranges::count(kColors, chunk) > 0;
 }
 
-/// The directories of a TIFF file: one for each page, with Exif in one of its own (TIFF 6.0, section 2). BigTIFF has
-/// numbers of eight bytes where that has four, and for the number of entries.
+/// Walks the directories of a TIFF file: one for each page, and one for its Exif (TIFF 6.0, section 2). BigTIFF has
+/// numbers of eight bytes in place of four, and counts entries by such.
 class TiffDirectories {
   public:
     TiffDirectories(const ByteSource& source, std::uint64_t size) : source_(source), size_(size) {
@@ -78,7 +78,7 @@ class TiffDirectories {
         first_ = number_of(bytes.subspan(is_big_ ? 8 : 4, word_bytes()), is_big_endian_);
     }
 
-    /// Where the types of entries stand that are hidden, in ascending order.
+    /// Returns the places, in ascending order, of the types of entries that are hidden.
     [[nodiscard]] std::vector<ByteRange> hidden() {
         std::set<std::uint64_t> known;
         std::uint64_t page = first_;
@@ -96,7 +96,7 @@ class TiffDirectories {
   private:
     // 256 for each of the most pages.
     static constexpr std::uint64_t kMostTags = std::uint64_t{1} << 20;
-    /// Values may be shared by pages, as a colour profile is: they claim at most so many times the file.
+    /// Is how many times the file all values may claim: pages share some, such as a colour profile.
     static constexpr std::uint64_t kMostSharing = 64;
 
     [[nodiscard]] std::size_t word_bytes() const { return is_big_ ? 8 : 4; }
@@ -110,7 +110,7 @@ class TiffDirectories {
         return number_of(number, is_big_endian_);
     }
 
-    /// Bytes of one value of a type; 0 for those that do not exist.
+    /// Returns the bytes of one value of `type`, 0 if there is no such type.
     static std::uint64_t value_bytes(std::uint64_t type) {
         constexpr std::array<std::uint64_t, 19> kBytes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
         return type < kBytes.size() ? kBytes[type] : 0;

@@ -1,6 +1,6 @@
-// What of a file OpenImageIO is shown: the pixels and how they are stored, not what else is said of the picture. It
-// reads comments, Exif, IPTC and XMP in time and memory that grow with the square of their number, a compressed text of
-// a PNG to any size, and XMP until the stack ends; nothing of them is used here.
+// Shows OpenImageIO the pixels of a file and how they are stored, and keeps comments, Exif, IPTC and XMP from it. It
+// reads them in time and memory that grow with the square of their number, a compressed text of a PNG to any size, and
+// XMP until the stack ends; nothing of them is used here.
 #pragma once
 
 #include "image/byte_source.h"
@@ -12,7 +12,7 @@
 
 namespace etendue {
 
-/// A piece of a file that is shown, or zeros of that size in its place.
+/// Holds a piece of a file that is shown, or zeros of that size in its place.
 struct FilePiece {
     std::uint64_t begin = 0;  ///< place in the file, bytes
     std::uint64_t size = 0;

@@ -135,7 +135,7 @@ bool is_inside(const fs::path& directory, const fs::path& file) {
     return in_directory == directory.end() && in_file != file.end();
 }
 
-/// There is nothing under the name.
+/// Is thrown if there is no file of that name.
 class MissingFile : public IoError {
   public:
     using IoError::IoError;

@@ -50,8 +50,8 @@ bool holds_scenes(const fs::path& directory) {
     return false;
 }
 
-/// The glTF files directly in `directory`, sorted; `code` says why it cannot be listed. What is no regular file, as a
-/// link to nothing, counts if its name is "scene" or there is nothing else, so that loading it says what it is.
+/// Returns the glTF files directly in `directory`, sorted; `code` says why it cannot be listed. A pipe, a folder or a
+/// link to nothing counts if its name is "scene" or there is nothing else, so that loading it says what it is.
 std::vector<fs::path> scene_files(const fs::path& directory, std::error_code& code) {
     std::vector<fs::path> files;
     std::vector<fs::path> others;

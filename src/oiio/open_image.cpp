@@ -108,7 +108,7 @@ std::unique_ptr<OIIO::Filesystem::IOProxy> bytes_to_show(const EncodedImage& enc
 }  // namespace
 
 bool are_read(const OIIO::ImageInput& input, bool read) {
-    // Of a JPEG that ends early it keeps an error, too, and makes the rest up.
+    // A JPEG that ends early leaves an error, too, but the library makes its rest up.
     return read && !(input.format_name() == std::string_view("tiff") && input.has_error());
 }
 

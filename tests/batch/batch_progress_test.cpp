@@ -169,7 +169,7 @@ TEST(BatchLog, MayBeADeviceAndNoPipe) {
     EXPECT_NO_THROW(BatchProgress(true, "/dev/null").say("nobody reads it"));
 }
 
-// As "--log /dev/stdout" where that is a pipe to another program.
+// Somebody may write "--log /dev/stdout" where that is a pipe to another program.
 TEST(BatchLog, MayBeAPipeThatIsOpen) {
     std::array<int, 2> ends{};
     ASSERT_EQ(::pipe(ends.data()), 0);

@@ -53,7 +53,7 @@ std::string text_of_file(const std::filesystem::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// What the library would see of `file`.
+/// Returns the bytes of `file` that the library would see.
 std::string joined(const std::string& file, const std::vector<FilePiece>& pieces) {
     if (pieces.empty()) return file;
     std::string shown;
@@ -156,7 +156,7 @@ TEST(ShownPieces, CommentsOfAJpegAreLeftOut) {
     EXPECT_FALSE(is_cut_jpeg(folder / "a.jpg"));
     EXPECT_LT(peak_memory() - before, std::int64_t{64} << 20);
 
-    // Those that say how colours are stored stay, but not without end.
+    // Segments that say how colours are stored stay, but only the first of them.
     const std::string adobe = segment(0xee, std::string("Adobe\0\x64\0\0\0\0\1", 12));
     EXPECT_EQ(shown_of_jpeg(std::string(plain).insert(kBehindStart, adobe)),
               shown_of_jpeg(plain).insert(kBehindStart, adobe));

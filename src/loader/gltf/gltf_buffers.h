@@ -21,11 +21,11 @@ namespace etendue {
 /// file.
 using GltfBuffers = std::map<std::string, std::vector<unsigned char>>;
 
-/// How much may still be decoded from a file. A few lines of JSON can refer to the same bytes any number of times, so
-/// what comes out is bounded by a multiple of what went in.
+/// Counts how much may still be decoded from a file. A few lines of JSON can refer to the same bytes any number of
+/// times, so what comes out is bounded by a multiple of what went in.
 class DecodeBudget {
   public:
-    /// What is said of a file that asks for more.
+    /// Is the message for a file that asks for more.
     static constexpr const char* kExceeded =
         "the file refers to the same things so often that it would take too much memory: more than 1 GiB and 64 times "
         "its size";

@@ -14,8 +14,7 @@
 
 namespace etendue {
 
-/// About what a mesh that is made for one place takes besides its vertices and its place: its description and Embree's
-/// scene of it.
+/// Is about how many bytes a mesh takes besides its vertices and its place: its description, and its scene in Embree.
 inline constexpr std::uint64_t kBytesOfMesh = 1024;
 
 class MeshDeformer {

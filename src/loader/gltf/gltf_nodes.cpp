@@ -223,8 +223,9 @@ class Placer {
         scene_.instances.push_back(std::move(instance));
     }
 
-    /// The mesh `handle` as `to_world`, which cannot be inverted, makes it but for where it is: what is left has the
-    /// normals of its triangles. Places that differ in nothing else share it. Nothing if no triangle has an area.
+    /// Returns the mesh `handle` made flat by `to_world`, which cannot be inverted, without its translation; nothing if
+    /// no triangle has an area left. The flat mesh has the normals of its triangles. Places that differ in translation
+    /// alone share it.
     Handle<MeshDesc> flattened(Handle<MeshDesc> handle, const Mat4d& to_world, const SourceLocation& where) {
         FlatShape shape;
         shape.first = handle.index;

@@ -226,7 +226,7 @@ TEST(Lamps, ThatAreTooLargeAreRefused) {
     EXPECT_EQ(dark.scene.instances.size(), 1u) << "dark, and left out";
 }
 
-// As the schema writes them; in single precision some are a little beyond.
+// The schema writes bounds so; in single precision some are a little beyond.
 TEST(Lamps, MayHaveTheNumbersAtTheEndsOfTheirRanges) {
     for (const char* angle :
          {R"("type": "sun", "irradiance": 1, "angle": 3.141592)", R"("type": "disk", "power": 1, "spread": 0.0174532)",
