@@ -1,4 +1,4 @@
-// A fingerprint of bytes, to tell whether they are the same as before.
+// A fingerprint of bytes, to tell whether they are the same as before; reading no file but a regular one.
 #pragma once
 
 #include <array>

@@ -108,7 +108,7 @@ RadianceHeader parse_radiance_header(std::span<const std::byte> file) {
         if (!line) throw IoError("its header has no end");
         return *line;
     };
-    // OpenImageIO looks for FORMAT in lines of less than 128 bytes, of which it reads 100.
+    // OpenImageIO looks for FORMAT in the first 100 lines, of less than 128 bytes each; these limits leave room.
     constexpr std::size_t kLongestLine = 100, kMostLines = 50;
     std::size_t lines = 0;
     bool is_short = true;

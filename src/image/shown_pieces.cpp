@@ -24,7 +24,7 @@ struct ByteRange {
     std::uint64_t end = 0;
 };
 
-/// Adds a range that follows the last of `ranges`.
+/// Adds a range that follows the last of `ranges`; neighbours become one, so that millions of them take no memory.
 void add_range(std::vector<ByteRange>& ranges, const ByteRange& range) {
     if (!ranges.empty() && ranges.back().end == range.begin)
         ranges.back().end = range.end;

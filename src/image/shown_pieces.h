@@ -1,6 +1,6 @@
-// Shows OpenImageIO the pixels of a file and how they are stored, and keeps comments, Exif, IPTC and XMP from it. It
-// reads them in time and memory that grow with the square of their number, a compressed text of a PNG to any size, and
-// XMP until the stack ends; nothing of them is used here.
+// Shows OpenImageIO the pixels of a file and how they are stored, and keeps comments, Exif, IPTC and XMP from it, of a
+// TIFF only the last two. It reads them in time and memory that grow with the square of their number, a compressed text
+// of a PNG to any size, and XMP until the stack ends; nothing of them is used here.
 #pragma once
 
 #include "image/byte_source.h"

@@ -182,7 +182,8 @@ ImageF read_layer(const EncodedImage& encoded, const ImageLayer& layer) {
             throw IoError(fmt::format("it has no channel '{}' any more", layer.channels[i]));
     seek_level(image, {image.spec.width, image.spec.height}, 0);
     ImageF pixels(image.spec.width, image.spec.height, static_cast<int>(layer.channels.size()));
-    if (!read_channels(image, layer.indices, pixels)) throw_library_error(*image.input, "the pixels are broken");
+    if (!are_read(*image.input, read_channels(image, layer.indices, pixels)))
+        throw_library_error(*image.input, "the pixels are broken");
     return pixels;
 }
 

@@ -112,7 +112,7 @@ void add_culled(SceneDesc& scene) {
 
 std::vector<AgreementCase> all_cases() {
     MaterialDesc wax;
-    wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.6f, 0.4f}, .radius = Rgb(0.05f)};  // dense
+    wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.6f, 0.4f}, .radius = Rgb(0.03f)};  // dense
     MaterialDesc coated = gltf_plastic();
     coated.clearcoat.factor = 1.0f;
     coated.clearcoat.roughness = 0.3f;
