@@ -138,7 +138,7 @@ void make_names_unique(std::vector<ImageLayer>& layers) {
 
 bool read_channels(OpenImage& image, const std::vector<int>& indices, ImageF& pixels) {
     const auto read = [&](int first, int last, float* target, OIIO::stride_t stride) {
-        return image.input->read_image(image.part, 0, first, last, OIIO::TypeDesc::FLOAT, target, stride);
+        return read_pixels(*image.input, {image.part, 0, {first, last}, OIIO::TypeDesc::FLOAT, target, stride});
     };
     const int count = static_cast<int>(indices.size());
     bool is_run = true;
@@ -182,8 +182,7 @@ ImageF read_layer(const EncodedImage& encoded, const ImageLayer& layer) {
             throw IoError(fmt::format("it has no channel '{}' any more", layer.channels[i]));
     seek_level(image, {image.spec.width, image.spec.height}, 0);
     ImageF pixels(image.spec.width, image.spec.height, static_cast<int>(layer.channels.size()));
-    if (!are_read(*image.input, read_channels(image, layer.indices, pixels)))
-        throw_library_error(*image.input, "the pixels are broken");
+    if (!read_channels(image, layer.indices, pixels)) throw_library_error(*image.input, "the pixels are broken");
     return pixels;
 }
 

@@ -88,6 +88,16 @@ std::optional<std::array<float, 8>> chromaticities_of(const OIIO::ImageSpec& spe
     return values;
 }
 
+bool is_tiff(const OIIO::ImageInput& input) {
+    return input.format_name() == std::string_view("tiff");
+}
+
+/// True if the library has kept an error of a TIFF that it did not return. A JPEG that ends early leaves an error, too,
+/// but the library makes its rest up.
+bool has_broken_strips(const OIIO::ImageInput& input) {
+    return is_tiff(input) && input.has_error();
+}
+
 /// True if the library, or one behind it, has got no memory: OpenEXR, libjpeg, or libpng and libtiff.
 bool tells_of_memory(std::string_view reason) {
     constexpr std::array<std::string_view, 3> kWords{"std::bad_alloc", "nsufficient memory", "ut of memory"};
@@ -107,9 +117,33 @@ std::unique_ptr<OIIO::Filesystem::IOProxy> bytes_to_show(const EncodedImage& enc
 
 }  // namespace
 
-bool are_read(const OIIO::ImageInput& input, bool read) {
-    // A JPEG that ends early leaves an error, too, but the library makes its rest up.
-    return read && !(input.format_name() == std::string_view("tiff") && input.has_error());
+bool read_rows(OIIO::ImageInput& input, int begin, int end, const PixelTarget& target) {
+    const auto& [part, level, channels, type, pixels, stride] = target;
+    // Where it inflates several rows of a TIFF, the library does not look whether their strips are broken.
+    const int step = is_tiff(input) ? 1 : end - begin;
+    const std::size_t pixel_bytes =
+        stride == OIIO::AutoStride ? channels.size() * type.size() : static_cast<std::size_t>(stride);
+    const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(input.spec_dimensions(part, level).width);
+    auto* row = static_cast<std::byte*>(pixels);
+    for (int y = begin; y < end; y += step, row += row_bytes * static_cast<std::size_t>(step))
+        if (!input.read_scanlines(part, level, y, y + step, 0, channels.first, channels.last, type, row, stride))
+            return false;
+    return !has_broken_strips(input);
+}
+
+bool read_tiles(OIIO::ImageInput& input, int x, int y, const ImageLevel& size, const PixelTarget& target) {
+    const auto& [part, level, channels, type, pixels, stride] = target;
+    return input.read_tiles(part, level, x, x + size.width, y, y + size.height, 0, 1, channels.first, channels.last,
+                            type, pixels, stride) &&
+           !has_broken_strips(input);
+}
+
+bool read_pixels(OIIO::ImageInput& input, const PixelTarget& target) {
+    const auto& [part, level, channels, type, pixels, stride] = target;
+    const OIIO::ImageSpec spec = input.spec_dimensions(part, level);
+    if (is_tiff(input) && spec.tile_width == 0) return read_rows(input, spec.y, spec.y + spec.height, target);
+    return input.read_image(part, level, channels.first, channels.last, type, pixels, stride) &&
+           !has_broken_strips(input);
 }
 
 void throw_library_error(const OIIO::ImageInput& input, std::string_view what) {

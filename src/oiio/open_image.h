@@ -68,9 +68,21 @@ struct ChannelRange {
 /// Returns whether `channel_range` is the selected channels in their order, so that nothing has to be picked.
 [[nodiscard]] bool channels_in_order(const OpenImage& image);
 
-/// Returns whether the pixels that were just read are there, where `read` is what the library returned: of broken
-/// strips of a TIFF, it only keeps an error.
-[[nodiscard]] bool are_read(const OIIO::ImageInput& input, bool read);
+/// Says which pixels are read, and where to.
+struct PixelTarget {
+    int part, level;
+    ChannelRange channels;
+    OIIO::TypeDesc type;
+    void* pixels;
+    OIIO::stride_t stride = OIIO::AutoStride;  ///< bytes from pixel to pixel; rows follow each other
+};
+
+/// Reads rows [begin, end), as the file counts them; false if they are broken.
+[[nodiscard]] bool read_rows(OIIO::ImageInput& input, int begin, int end, const PixelTarget& target);
+/// Reads tiles with pixels from (x, y) on, `width` x `height` large, as the file counts them; false if they are broken.
+[[nodiscard]] bool read_tiles(OIIO::ImageInput& input, int x, int y, const ImageLevel& size, const PixelTarget& target);
+/// Reads all pixels of a level; false if they are broken.
+[[nodiscard]] bool read_pixels(OIIO::ImageInput& input, const PixelTarget& target);
 
 /// Throws IoError with the library's reason, or std::bad_alloc if that is a lack of memory, which is no fault of the
 /// image.

@@ -34,11 +34,9 @@ class DecodedPieces final : public ImagePieces {
         const int first_row = image_.input->spec().y;
         const auto width = static_cast<std::size_t>(size.width);
         const std::size_t pixel_count = width * static_cast<std::size_t>(y_end - y_begin);
-        const ChannelRange range = channel_range(image_);
-        float* const target = target_of(pixel_count, values);
-        const bool read = image_.input->read_scanlines(image_.part, level, first_row + y_begin, first_row + y_end, 0,
-                                                       range.first, range.last, OIIO::TypeDesc::FLOAT, target);
-        finish(read, pixel_count, values);
+        float* const pixels = target_of(pixel_count, values);
+        finish(oiio::read_rows(*image_.input, first_row + y_begin, first_row + y_end, target(level, pixels)),
+               pixel_count, values);
     }
 
     void read_tile(int level, int x, int y, std::span<float> values) override {
@@ -50,11 +48,8 @@ class DecodedPieces final : public ImagePieces {
         x += live.x;
         y += live.y;
         const std::size_t pixel_count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        const ChannelRange range = channel_range(image_);
-        float* const target = target_of(pixel_count, values);
-        const bool read = image_.input->read_tiles(image_.part, level, x, x + width, y, y + height, 0, 1, range.first,
-                                                   range.last, OIIO::TypeDesc::FLOAT, target);
-        finish(read, pixel_count, values);
+        float* const pixels = target_of(pixel_count, values);
+        finish(oiio::read_tiles(*image_.input, x, y, tile_, target(level, pixels)), pixel_count, values);
     }
 
   private:
@@ -74,8 +69,12 @@ class DecodedPieces final : public ImagePieces {
         return stored_.data();
     }
 
-    void finish(bool read, std::size_t pixel_count, std::span<float> values) {
-        is_broken_ = !are_read(*image_.input, read);
+    [[nodiscard]] PixelTarget target(int level, float* pixels) const {
+        return {image_.part, level, channel_range(image_), OIIO::TypeDesc::FLOAT, pixels};
+    }
+
+    void finish(bool are_read, std::size_t pixel_count, std::span<float> values) {
+        is_broken_ = !are_read;
         if (is_broken_) throw_library_error(*image_.input, "the pixels are broken");
         if (!channels_in_order(image_)) pick_channels(image_, stored_.data(), pixel_count, values.data());
     }

@@ -14,9 +14,8 @@ Image<T> read_level(OpenImage& open, const ImageLevel& size, int level) {
     const bool in_order = channels_in_order(open);
     std::vector<T> stored(in_order ? 0 : pixel_count * range.size());
     T* const pixels = in_order ? image.pixels.data() : stored.data();
-    const bool read =
-        open.input->read_image(open.part, level, range.first, range.last, OIIO::BaseTypeFromC<T>::value, pixels);
-    if (!are_read(*open.input, read)) throw_library_error(*open.input, "the pixels are broken");
+    if (!read_pixels(*open.input, {open.part, level, range, OIIO::BaseTypeFromC<T>::value, pixels}))
+        throw_library_error(*open.input, "the pixels are broken");
     if (!in_order) pick_channels(open, pixels, pixel_count, image.pixels.data());
     return image;
 }

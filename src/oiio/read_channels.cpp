@@ -93,9 +93,8 @@ void read_parts(OIIO::ImageInput& input, std::span<const int> channels_of_part, 
     float* place = pixels.pixels.data();
     for (std::size_t part = 0; part < channels_of_part.size(); ++part) {
         const int channels = channels_of_part[part];
-        const bool read =
-            input.read_image(static_cast<int>(part), 0, 0, channels, OIIO::TypeDesc::FLOAT, place, stride);
-        if (!are_read(input, read)) throw_library_error(input, "the pixels are broken");
+        if (!read_pixels(input, {static_cast<int>(part), 0, {0, channels}, OIIO::TypeDesc::FLOAT, place, stride}))
+            throw_library_error(input, "the pixels are broken");
         place += channels;
     }
 }

@@ -252,6 +252,23 @@ TEST(ReadImage, AcceptsTheMostCompressibleImages) {
     }
 }
 
+TEST(ReadImage, RefusesStripsThatDoNotInflate) {
+    const TemporaryFolder folder;
+    OIIO::ImageSpec spec(64, 64, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("compression", "zip");
+    spec.attribute("tiff:RowsPerStrip", 16);
+    std::vector<float> noise(64 * 64 * 3);
+    std::mt19937 random(3);
+    for (float& value : noise) value = std::uniform_real_distribution<float>()(random);
+    auto bytes = read_all(write_reference(folder / "a.tif", spec, noise));
+    EXPECT_EQ(error_of(std::span(bytes)), "");
+    for (const std::size_t third : {1, 2}) {
+        auto bad = bytes;
+        for (std::size_t i = 0; i < 40; i += 4) bad[bad.size() * third / 3 + i] ^= std::byte{0xff};
+        EXPECT_NE(error_of(std::span(bad)), "") << third;
+    }
+}
+
 // Cut and damaged files of every format: an error or some pixels, never a crash, whatever the sanitizers watch.
 TEST(ReadImage, SurvivesDamage) {
     const TemporaryFolder folder;

@@ -196,7 +196,11 @@ std::size_t AccessorReader::count(int accessor) const {
 
 bool AccessorReader::allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where) {
     // Counts are below 2^32 and sizes below 2^10 here, or `bytes` is 1.
-    if (budget_.take(count * bytes)) return true;
+    return has_room(count * bytes, where) && budget_.take(count * bytes);
+}
+
+bool AccessorReader::has_room(std::uint64_t bytes, const SourceLocation& where) {
+    if (budget_.holds(bytes)) return true;
     // The file is refused; whatever else would take too much is no news.
     if (!std::exchange(is_exhausted_, true)) problems_.error(where, DecodeBudget::kExceeded);
     return false;

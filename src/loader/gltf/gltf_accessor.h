@@ -62,6 +62,8 @@ class AccessorReader {
     /// Takes memory for `count` elements of `bytes` each from what may still be decoded; false if that is too much,
     /// with an error at `where` if it is the first time.
     [[nodiscard]] bool allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where);
+    /// True if `bytes` may still be decoded, as for a while only; false with an error like that of `allocate`.
+    [[nodiscard]] bool has_room(std::uint64_t bytes, const SourceLocation& where);
 
     /// The bytes of a buffer view, at most as many as may still be decoded; the same on errors.
     [[nodiscard]] std::optional<std::span<const unsigned char>> copyable_view(int buffer_view,

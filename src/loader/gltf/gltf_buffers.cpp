@@ -117,7 +117,7 @@ DecodeBudget::DecodeBudget(std::uint64_t bytes) {
 }
 
 bool DecodeBudget::take(std::uint64_t bytes) {
-    if (bytes > left_) return false;
+    if (!holds(bytes)) return false;
     left_ -= bytes;
     return true;
 }

@@ -33,7 +33,9 @@ class DecodeBudget {
     /// `bytes` are those of the file and of its buffers, as they were read.
     explicit DecodeBudget(std::uint64_t bytes);
 
-    /// False if `bytes` more are too much.
+    /// True if `bytes` more are not too much.
+    [[nodiscard]] bool holds(std::uint64_t bytes) const { return bytes <= left_; }
+    /// Takes `bytes` of what is left; false, and nothing is taken, if they are too much.
     [[nodiscard]] bool take(std::uint64_t bytes);
 
   private:

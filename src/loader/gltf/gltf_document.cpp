@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <set>
 #include <string_view>
 
@@ -339,6 +340,8 @@ tinygltf::Model parse_model(const Json& document, GltfBuffers& buffers, const Gl
     try {
         loaded = loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
                                             static_cast<unsigned int>(text.size()), "");
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         errors += error.what();
     }

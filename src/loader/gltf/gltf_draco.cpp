@@ -1,33 +1,17 @@
 #include "loader/gltf/gltf_draco.h"
 
+#include "core/error.h"
+#include "loader/gltf/draco_decoder.h"
 #include "loader/gltf/gltf_value.h"
 
-#include <exception>
+#include <algorithm>
 #include <memory>
 
-#include <draco/compression/decode.h>
-#include <draco/core/decoder_buffer.h>
-#include <draco/mesh/mesh.h>
 #include <fmt/format.h>
 
 namespace etendue {
 
 namespace {
-
-/// The mesh, or an error text.
-std::unique_ptr<draco::Mesh> decode(std::span<const unsigned char> bytes, std::string& error) {
-    draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    try {
-        draco::Decoder decoder;
-        auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
-        if (mesh.ok()) return std::move(mesh).value();
-        error = mesh.status().error_msg_string();
-    } catch (const std::exception& exception) {
-        error = exception.what();  // out of memory, among others
-    }
-    return nullptr;
-}
 
 /// Largest value of an accessor's integers, by which normalised ones are divided.
 float largest_integer(int component_type) {
@@ -71,9 +55,13 @@ std::optional<DracoMesh> decode_draco(const GltfDocument& document, const tinygl
     const tinygltf::Value& extension = *find_extension(primitive.extensions, kDracoExtension);
     const auto bytes = accessors.copyable_view(integer_or(extension, "bufferView", -1), where);
     if (!bytes) return std::nullopt;
-    std::string error;
-    const std::unique_ptr<draco::Mesh> mesh = decode(*bytes, error);
-    if (!mesh) return fail("the Draco data cannot be decoded: " + error);
+    std::unique_ptr<draco::Mesh> mesh;
+    try {
+        mesh = decode_draco_mesh(*bytes, [&](std::uint64_t more) { return accessors.has_room(more, where); });
+    } catch (const IoError& error) {
+        return fail(fmt::format("the Draco data cannot be decoded: {}", error.what()));
+    }
+    if (!mesh) return std::nullopt;
 
     DracoMesh result;
     if (!accessors.allocate(mesh->num_faces(), 3 * sizeof(std::uint32_t), where)) return std::nullopt;

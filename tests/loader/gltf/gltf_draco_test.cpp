@@ -1,7 +1,9 @@
+#include "loader/gltf/draco_decoder.h"
 #include "loader/gltf/gltf_builder.h"
 
 #include <array>
 #include <functional>
+#include <span>
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -13,7 +15,7 @@ namespace {
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
 
 /// Two triangles with positions (attribute 0) and colours as normalised bytes (attribute 1), compressed without loss.
-std::vector<char> encoded_square() {
+std::vector<char> encoded_square(int method = draco::MESH_EDGEBREAKER_ENCODING) {
     using Corner = std::array<float, 3>;
     const std::array<Corner, 6> corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0.5f}}};
     draco::TriangleSoupMeshBuilder builder;
@@ -30,6 +32,7 @@ std::vector<char> encoded_square() {
     }
     const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
     draco::Encoder encoder;
+    encoder.SetEncodingMethod(method);
     draco::EncoderBuffer buffer;
     EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
     return {buffer.data(), buffer.data() + buffer.size()};
@@ -110,6 +113,52 @@ TEST_P(BadDraco, IsAnError) {
 
 INSTANTIATE_TEST_SUITE_P(Draco, BadDraco, testing::ValuesIn(kBadPrimitives),
                          [](const auto& i) { return i.param.name; });
+
+/// Returns `encoded` with `count` in place of the number of one byte at `place`.
+std::vector<char> with_count(std::vector<char> encoded, std::size_t place, std::uint32_t count) {
+    std::vector<char> varint;
+    for (; count >= 0x80; count >>= 7) varint.push_back(static_cast<char>(count | 0x80));
+    varint.push_back(static_cast<char>(count));
+    encoded.erase(encoded.begin() + static_cast<std::ptrdiff_t>(place));
+    encoded.insert(encoded.begin() + static_cast<std::ptrdiff_t>(place), varint.begin(), varint.end());
+    return encoded;
+}
+
+// Before memory is taken: tables of 300 million faces are 7 GB.
+TEST(Draco, CountsThatWouldTakeTooMuchMemoryAreRefused) {
+    constexpr std::uint32_t kMany = 300'000'000;
+    constexpr std::size_t kHeader = 11;
+    const std::vector<char> corners = encoded_square();
+    const std::vector<char> bombs[] = {
+        with_count(corners, kHeader + 1, kMany),  // vertices
+        with_count(corners, kHeader + 2, kMany),  // faces
+        with_count(corners, kHeader + 5, kMany),  // split symbols
+    };
+    for (const std::vector<char>& bomb : bombs) {
+        const LoadedScene loaded = compressed_mesh(bomb).load();
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "would take too much memory",
+                                "/extensions/KHR_draco_mesh_compression"))
+            << &bomb - bombs << listing(loaded.problems);
+    }
+}
+
+TEST(Draco, EveryMethodAsksBeforeAttributesAreDecoded) {
+    // Positions of three floats and colours of four bytes, as such and as integers, and two places each.
+    constexpr std::uint64_t kAttributes = 4 * (3 * (4 + 4) + 8 + 4 * (1 + 4) + 8);
+    for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
+        const std::vector<char> encoded = encoded_square(method);
+        const std::span bytes(reinterpret_cast<const unsigned char*>(encoded.data()), encoded.size());
+        std::uint64_t last = 0;
+        const auto mesh = decode_draco_mesh(bytes, [&](std::uint64_t more) {
+            last = more;
+            return true;
+        });
+        ASSERT_TRUE(mesh);
+        EXPECT_EQ(mesh->num_faces(), 2u);
+        EXPECT_EQ(last, kAttributes);
+        EXPECT_FALSE(decode_draco_mesh(bytes, [&](std::uint64_t more) { return more < kAttributes; }));
+    }
+}
 
 // Whatever a byte is changed to, the file loads or is refused.
 TEST(Draco, DamagedBytesAreNoDanger) {
