@@ -309,11 +309,13 @@ class MemoryLimit {
 TEST(ReadImage, ALackOfMemoryIsNoFaultOfTheImage) {
     if (test::kHasSanitizers) GTEST_SKIP() << "sanitizers take more address space than can be limited";
     const TemporaryFolder folder;
-    // 48 MiB of floats, which are never part of what has been freed before.
-    const auto png = write_reference(folder / "a.png", {2048, 2048, 3, OIIO::TypeDesc::UINT8},
-                                     std::vector<std::uint8_t>(std::size_t{2048} * 2048 * 3));
-    const auto exr = write_reference(folder / "a.exr", {2048, 2048, 3, OIIO::TypeDesc::FLOAT},
-                                     std::vector<float>(std::size_t{2048} * 2048 * 3));
+    // 144 MiB of floats, which are never part of what has been freed before, as the 64 MiB of a thread's heap are.
+    constexpr int kWidth = 2048, kHeight = 6144;
+    constexpr std::size_t kValues = std::size_t{kWidth} * kHeight * 3;
+    const auto png = write_reference(folder / "a.png", {kWidth, kHeight, 3, OIIO::TypeDesc::UINT8},
+                                     std::vector<std::uint8_t>(kValues));
+    const auto exr = write_reference(folder / "a.exr", {kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT},
+                                     std::vector<float>(kValues));
     (void)read_image_float(png);
     (void)read_image_levels(exr);
     const LayeredImage layers = read_layers(exr);
