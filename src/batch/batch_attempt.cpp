@@ -1,6 +1,7 @@
 #include "batch/batch_attempt.h"
 
 #include "core/error.h"
+#include "core/process_time.h"
 #include "picture/output_paths.h"
 #include "render/checkpoint.h"
 #include "session/exit_code.h"
@@ -109,7 +110,7 @@ class Repeater {
 }  // namespace
 
 ChildAttempt::ChildAttempt(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how, int threads)
-    : options_(options) {
+    : options_(options), threads_(threads) {
     commands_.push_back({child_arguments(task, options, how, threads), "start", options.stall_minutes});
     if (options.denoise) {
         const std::string image = as_argument(task.job.output);
@@ -172,10 +173,14 @@ bool ChildAttempt::go_on(const AttemptCallbacks& callbacks) {
     judge();
     if (attempt_.end != AttemptEnd::Done) return false;
     commands_.pop_front();
-    has_rendered_ = true;
-    if (commands_.empty()) return false;
-    start_next();
-    return true;
+    if (!std::exchange(has_rendered_, true)) rendered_at_ = Clock::now();
+    if (!commands_.empty()) {
+        start_next();
+        return true;
+    }
+    if (options_.denoise) attempt_.denoise_seconds = seconds_since(rendered_at_);
+    attempt_.threads = threads_;
+    return false;
 }
 
 void ChildAttempt::end_if_silent() {

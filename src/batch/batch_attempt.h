@@ -38,6 +38,8 @@ struct Attempt {
     std::vector<std::string> log{};  ///< the last lines of its process, oldest first
     std::string phase{};      ///< the last that its process told of; here, only "resume" if the checkpoint was refused
     bool is_stalled = false;  ///< it was ended because its process did not go on
+    std::optional<double> denoise_seconds{};  ///< seconds from the end of rendering on, if noise was taken out
+    int threads = 0;                          ///< threads of that; 0: one per processor
 };
 
 struct AttemptOptions {
@@ -98,11 +100,13 @@ class ChildAttempt {
     void judge();
 
     const BatchOptions& options_;
+    int threads_;
     std::deque<Command> commands_;  ///< from the one that runs on
     std::unique_ptr<ChildProcess> child_;
     Attempt attempt_;
     bool has_rendered_ = false;
-    Clock::time_point last_sign_;  ///< last sign of its going on
+    Clock::time_point rendered_at_{};  ///< once it is rendered
+    Clock::time_point last_sign_;      ///< last sign of its going on
     bool was_told_to_stop_ = false;
     bool has_lock_ = true;
 };

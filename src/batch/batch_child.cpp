@@ -183,13 +183,19 @@ SceneLook inspect_in_child(const BatchTask& task, const BatchOptions& options) {
     for (std::string& option : options_of(task, for_inspect(options))) arguments.push_back(std::move(option));
     Answer answer = ask(std::move(arguments), options);
     std::string errors;
+    std::vector<std::string> warnings;
     for (const nlohmann::json& problem : value_of(answer.json, "problems")) {
-        if (!problem.is_object() || text_at(problem, "/severity") != "error") continue;
+        if (!problem.is_object()) continue;
+        const std::string severity = text_at(problem, "/severity");
+        if (severity == "warning") warnings.push_back(text_at(problem, "/text"));
+        if (severity != "error") continue;
         if (!errors.empty()) errors += '\n';
         errors += text_at(problem, "/text");
     }
     if (!errors.empty()) answer.error = errors;
-    return look_of(answer, value_of(answer.json, "image"));
+    SceneLook look = look_of(answer, value_of(answer.json, "image"));
+    look.warnings = std::move(warnings);
+    return look;
 }
 
 std::string error_of(const std::deque<std::string>& lines) {

@@ -46,7 +46,8 @@ struct SceneLook {
     double start_seconds = 0.0;                   ///< part of `seconds` before the first sample
     std::optional<std::uint64_t> memory_bytes{};  ///< bytes that its process will need; none if nobody knows
     ImageOutline outline{};                       ///< outline of the image; empty if it was not found out
-    std::string error{};  ///< why the image cannot be rendered, of any number of lines; empty if it can
+    std::string error{};                  ///< why the image cannot be rendered, of any number of lines; empty if it can
+    std::vector<std::string> warnings{};  ///< what else is wrong with the scene; only `inspect_in_child` tells
 };
 
 /// Renders the beginning of the image, by `etendue render --probe`.

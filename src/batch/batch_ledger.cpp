@@ -51,7 +51,13 @@ std::string to_line(const LedgerEvent& event) {
     add("signal", event.signal, !event.signal.empty());
     add("error", event.error, !event.error.empty());
     add("log", event.log, !event.log.empty());
-    add("seconds", std::round(event.seconds.value_or(0.0) * 1e3) / 1e3, event.seconds.has_value());
+    const auto rounded = [](const std::optional<double>& seconds) {
+        return std::round(seconds.value_or(0.0) * 1e3) / 1e3;
+    };
+    add("seconds", rounded(event.seconds), event.seconds.has_value());
+    add("denoise_seconds", rounded(event.denoise_seconds), event.denoise_seconds.has_value());
+    add("pixels", event.pixels, event.pixels > 0);
+    add("threads", event.threads, event.threads > 0);
     add("again", true, event.again);
     add("units", event.units.value_or(0), event.units.has_value());
     if (event.kind == LedgerEventKind::BatchFinished) {
@@ -148,6 +154,13 @@ void LedgerHistory::take(const std::string& line) {
     const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
     const std::string unit = text_at(json, "/unit");
     if (unit.empty()) return;
+    const std::optional<double> denoise_seconds = number_at<double>(json, "/denoise_seconds");
+    const std::uint64_t pixels = number_at<std::uint64_t>(json, "/pixels").value_or(0);
+    const int threads = number_at<int>(json, "/threads").value_or(0);
+    if (denoise_seconds && pixels > 0 && threads > 0) {
+        denoise_thread_seconds_ += *denoise_seconds * threads;
+        denoised_pixels_ += static_cast<double>(pixels);
+    }
     for (const LedgerEventKind kind : kKinds) {
         if (text_at(json, "/event") != event_name(kind)) continue;
         const std::string error = text_at(json, "/error");
@@ -157,13 +170,19 @@ void LedgerHistory::take(const std::string& line) {
                           .has_crashed = json.contains("signal"),
                           .error = error.substr(0, error.find('\n')),
                           .is_final = !json.contains("again"),
-                          .is_recent = !is_first_read_};
+                          .is_recent = !is_first_read_,
+                          .denoise_seconds = denoise_seconds};
     }
 }
 
 const LedgerHistory::Entry* LedgerHistory::find(const std::string& unit) const {
     const auto found = entries_.find(unit);
     return found == entries_.end() ? nullptr : &found->second;
+}
+
+std::optional<double> LedgerHistory::denoise_seconds(std::uint64_t pixels, int threads) const {
+    if (pixels == 0 || threads <= 0 || !(denoised_pixels_ > 0.0)) return std::nullopt;
+    return denoise_thread_seconds_ / denoised_pixels_ * static_cast<double>(pixels) / threads;
 }
 
 }  // namespace etendue

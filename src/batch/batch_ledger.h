@@ -26,22 +26,25 @@ enum class LedgerEventKind {
 
 struct LedgerEvent {
     LedgerEventKind kind = LedgerEventKind::UnitStarted;
-    std::string unit{};                  ///< path of the image below OUT, without its extension; empty for batches
-    std::string scene{};                 ///< directory or file
-    int attempt = 0;                     ///< from 1; 0 if it means nothing
-    std::string reason{};                ///< why a unit is started
-    std::string taken_over_from{};       ///< "host:pid" of the dead process that had begun the unit
-    std::optional<int> exit_code{};      ///< exit code of the process that ended
-    std::string signal{};                ///< "SIGSEGV", if one ended it
-    std::string error{};                 ///< message of the failure
-    std::vector<std::string> log{};      ///< last lines of that process, oldest first
-    std::optional<double> seconds{};     ///< seconds that it took
-    bool again = false;                  ///< whether this process tries again at once
-    std::optional<std::size_t> units{};  ///< units of a batch
-    std::size_t rendered = 0;            ///< units that a batch had rendered when it ended
-    std::size_t interrupted = 0;         ///< units that the user had interrupted
-    std::size_t failed = 0;              ///< units that had failed when it ended
-    std::size_t not_tried = 0;           ///< units that were not tried, since their scene is invalid
+    std::string unit{};                       ///< path of the image below OUT, without its extension; empty for batches
+    std::string scene{};                      ///< directory or file
+    int attempt = 0;                          ///< from 1; 0 if it means nothing
+    std::string reason{};                     ///< why a unit is started
+    std::string taken_over_from{};            ///< "host:pid" of the dead process that had begun the unit
+    std::optional<int> exit_code{};           ///< exit code of the process that ended
+    std::string signal{};                     ///< "SIGSEGV", if one ended it
+    std::string error{};                      ///< message of the failure
+    std::vector<std::string> log{};           ///< last lines of that process, oldest first
+    std::optional<double> seconds{};          ///< seconds that it took
+    std::optional<double> denoise_seconds{};  ///< part of `seconds` that taking the noise out took
+    std::uint64_t pixels = 0;                 ///< pixels of the image; 0 if that means nothing
+    int threads = 0;                          ///< threads that made it; 0 if that means nothing
+    bool again = false;                       ///< whether this process tries again at once
+    std::optional<std::size_t> units{};       ///< units of a batch
+    std::size_t rendered = 0;                 ///< units that a batch had rendered when it ended
+    std::size_t interrupted = 0;              ///< units that the user had interrupted
+    std::size_t failed = 0;                   ///< units that had failed when it ended
+    std::size_t not_tried = 0;                ///< units that were not tried, since their scene is invalid
 };
 
 /// "2026-11-22T14:03:07.123Z": now, in UTC.
@@ -68,12 +71,13 @@ class LedgerHistory {
   public:
     struct Entry {
         LedgerEventKind kind = LedgerEventKind::UnitStarted;
-        std::string host{};              ///< host of the batch process
-        std::optional<int> exit_code{};  ///< exit code of the process that rendered it
-        bool has_crashed = false;        ///< a signal ended the process that rendered it
-        std::string error{};             ///< if it failed; its first line
-        bool is_final = true;            ///< its process did not try again at once
-        bool is_recent = false;          ///< appended after the first `read_new`
+        std::string host{};                       ///< host of the batch process
+        std::optional<int> exit_code{};           ///< exit code of the process that rendered it
+        bool has_crashed = false;                 ///< a signal ended the process that rendered it
+        std::string error{};                      ///< if it failed; its first line
+        bool is_final = true;                     ///< its process did not try again at once
+        bool is_recent = false;                   ///< appended after the first `read_new`
+        std::optional<double> denoise_seconds{};  ///< seconds that taking the noise out took
     };
 
     explicit LedgerHistory(std::filesystem::path path) : path_(std::move(path)) {}
@@ -85,6 +89,10 @@ class LedgerHistory {
     /// Returns the last that is known of `unit`; null if nothing is. Valid until the next `read_new`.
     [[nodiscard]] const Entry* find(const std::string& unit) const;
 
+    /// Returns the seconds that taking the noise out of so many pixels with so many threads takes, by the mean of all
+    /// images of the ledger; none if it tells of none.
+    [[nodiscard]] std::optional<double> denoise_seconds(std::uint64_t pixels, int threads) const;
+
   private:
     void take(const std::string& line);
 
@@ -92,6 +100,8 @@ class LedgerHistory {
     std::uintmax_t read_ = 0;  ///< bytes: all lines that were whole
     bool is_first_read_ = true;
     std::unordered_map<std::string, Entry> entries_;
+    double denoise_thread_seconds_ = 0.0;  ///< sum over all images, seconds times threads
+    double denoised_pixels_ = 0.0;
 };
 
 }  // namespace etendue

@@ -1,6 +1,8 @@
 #include "batch/batch_plan.h"
 
 #include "batch/batch_lock.h"
+#include "batch/batch_statistics.h"
+#include "core/parallel.h"
 #include "loader/loader.h"
 #include "session/checkpoint_files.h"
 #include "session/interrupt.h"
@@ -72,8 +74,44 @@ bool are_alike(const ImageJob& a, const ImageJob& b) {
 SceneLook look_at(const BatchTask& task, const BatchOptions& options) {
     if (options.denoise)
         if (std::string error = why_not_denoised(task, options); !error.empty()) return {.error = std::move(error)};
-    if (!options.no_probe) return probe_in_child(task, options);
-    return options.dry_run ? inspect_in_child(task, options) : SceneLook{};
+    if (options.no_probe) return options.dry_run ? inspect_in_child(task, options) : SceneLook{};
+    SceneLook look = probe_in_child(task, options);
+    // A probe tells no warnings.
+    if (options.dry_run && look.error.empty()) look.warnings = inspect_in_child(task, options).warnings;
+    return look;
+}
+
+std::uint64_t pixels_of(int width, int height) {
+    return static_cast<std::uint64_t>(std::max(width, 0)) * static_cast<std::uint64_t>(std::max(height, 0));
+}
+
+/// Notes what the finished image, if there is one, has more of than the one that will replace it.
+void compare_with_finished(PlannedUnit& unit, const BatchOptions& options) {
+    const OutputPaths output = OutputPaths::beside(unit.task.job.output, options.overrides.png);
+    if (unit.outline.width == 0 || why_unfinished(output)) return;
+    BatchUnit finished;
+    read_statistics(output.json, finished);
+    unit.loses_samples = unit.outline.spp > 0 && unit.outline.spp < finished.spp;
+    unit.loses_pixels = pixels_of(unit.outline.width, unit.outline.height) < pixels_of(finished.width, finished.height);
+}
+
+/// Adds the seconds that taking out the noise with `threads` threads will take to the estimate, if they are known.
+void add_denoising(PlannedUnit& unit, const LedgerHistory& history, int threads) {
+    if (!unit.estimated_seconds) return;
+    const auto seconds = history.denoise_seconds(pixels_of(unit.outline.width, unit.outline.height), threads);
+    unit.lacks_denoising = !seconds;
+    *unit.estimated_seconds += seconds.value_or(0.0);
+}
+
+/// Puts into `unit` what was found out about it, or about an image that is alike.
+void take_look(PlannedUnit& unit, const SceneLook& look) {
+    if (look.outline.width > 0) unit.outline = look.outline;
+    if (unit.task.job.camera) unit.outline.camera = *unit.task.job.camera;
+    unit.error = look.error;
+    unit.warnings = look.warnings;
+    unit.memory_bytes = look.memory_bytes;
+    if (look.seconds)
+        unit.estimated_seconds = look.start_seconds + (*look.seconds - look.start_seconds) * (1.0 - unit.done);
 }
 
 }  // namespace
@@ -113,8 +151,10 @@ void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const L
             unit.reason = "the scene cannot be loaded";
         }
     }
-    if (!unit.is_stale() && options.denoise && !is_denoised(unit.task.job.output, options.overrides.png))
-        unit.reason = "was not denoised";
+    if (unit.is_stale() || !options.denoise) return;
+    if (!is_denoised(unit.task.job.output, options.overrides.png)) unit.reason = "was not denoised";
+    const LedgerHistory::Entry* const last = history.find(unit.task.id);
+    unit.denoise_seconds = last != nullptr ? last->denoise_seconds : std::nullopt;
 }
 
 BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, const LedgerHistory& history,
@@ -123,6 +163,7 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
     plan.reserve(tasks.size());
     const std::size_t count = tasks.size();
     const BatchLocks locks(options.output);
+    const int threads = options.threads > 0 || !options.denoise ? options.threads : ThreadPool(0).thread_count();
     std::optional<ImageJob> looked_at;
     SceneLook look;
     for (BatchTask& task : tasks) {
@@ -139,12 +180,9 @@ BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options, c
             looked_at = unit.task.job;
             look = look_at(unit.task, options);
         }
-        unit.outline = look.outline;
-        if (unit.task.job.camera) unit.outline.camera = *unit.task.job.camera;
-        unit.error = look.error;
-        unit.memory_bytes = look.memory_bytes;
-        if (look.seconds)
-            unit.estimated_seconds = look.start_seconds + (*look.seconds - look.start_seconds) * (1.0 - unit.done);
+        take_look(unit, look);
+        compare_with_finished(unit, options);
+        if (options.denoise) add_denoising(unit, history, threads);
     }
     return plan;
 }
@@ -195,6 +233,7 @@ PlanTotals totals(const BatchPlan& plan) {
             sum.seconds += *unit.estimated_seconds;
         else
             ++sum.unknown;
+        sum.lacks_denoising = sum.lacks_denoising || (unit.error.empty() && unit.lacks_denoising);
     }
     return sum;
 }

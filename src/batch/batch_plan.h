@@ -36,7 +36,12 @@ struct PlannedUnit {
     FileStamp seen{};                             ///< the statistics beside the image, when they were looked at
     ImageOutline outline{};                       ///< outline of the image, as far as it was found out
     std::string error{};  ///< why it cannot be rendered, of any number of lines; empty if nothing is known to be wrong
-    bool is_running_elsewhere = false;  ///< a dry run has seen that another batch process renders it
+    bool is_running_elsewhere = false;        ///< a dry run has seen that another batch process renders it
+    std::vector<std::string> warnings{};      ///< what a dry run has found to be wrong with its scene all the same
+    bool loses_samples = false;               ///< its finished image has more samples than are asked for
+    bool loses_pixels = false;                ///< its finished image is larger than is asked for
+    bool lacks_denoising = false;             ///< the estimate leaves out taking out the noise, which nobody has timed
+    std::optional<double> denoise_seconds{};  ///< seconds that taking out its noise took, if it is up to date
 
     [[nodiscard]] bool is_stale() const { return !reason.empty(); }
 };
@@ -67,17 +72,22 @@ void arrange(BatchPlan& plan, BatchOrder order, std::span<const std::filesystem:
 /// Sums over the stale images of a plan.
 struct PlanTotals {
     std::size_t stale = 0;
-    std::size_t elsewhere = 0;  ///< images that another batch renders, in none of the other numbers
-    std::size_t failing = 0;    ///< stale images that cannot be rendered
-    std::size_t unknown = 0;    ///< stale images without an error or an estimate
-    double seconds = 0.0;       ///< seconds of all stale images with an estimate
+    std::size_t elsewhere = 0;     ///< images that another batch renders, in none of the other numbers
+    std::size_t failing = 0;       ///< stale images that cannot be rendered
+    std::size_t unknown = 0;       ///< stale images without an error or an estimate
+    double seconds = 0.0;          ///< seconds of all stale images with an estimate
+    bool lacks_denoising = false;  ///< `seconds` leaves out taking out the noise of some
 };
 [[nodiscard]] PlanTotals totals(const BatchPlan& plan);
 
-/// Returns a table with a row for each image, what is wrong with those that will fail, and a last line that sums up.
+/// Returns a table with a row for each image, what is wrong with them, what they replace, and a last line that sums up.
 [[nodiscard]] std::string to_table(const BatchPlan& plan);
 /// Says what is wrong with the images that will fail, once for each scene and reason; empty if nothing is.
 [[nodiscard]] std::string failures(const BatchPlan& plan);
+/// Lists the warnings of the images that are to be rendered, once for each scene; empty if there are none.
+[[nodiscard]] std::string warnings(const BatchPlan& plan);
+/// Counts the finished images that are replaced by ones with fewer samples or pixels; empty if none is.
+[[nodiscard]] std::string replacements(const BatchPlan& plan);
 /// One JSON object: docs/batch.md tells its keys.
 [[nodiscard]] std::string to_json(const BatchPlan& plan);
 /// One line: "3 of 5 images to render, about 2:10: 2 never rendered, 1 settings changed".

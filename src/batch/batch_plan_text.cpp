@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -23,12 +24,14 @@ std::string format_estimate(const std::optional<double>& seconds) {
     return seconds ? format_duration(*seconds) : "?";
 }
 
-/// "about 2:54" or, if some have no estimate, "\u2265 2:54, 1 unknown"; empty if nothing is known.
+/// "about 2:54", or "about 2:54 without denoising" or, if some have no estimate, "\u2265 2:54, 1 unknown"; empty if
+/// nothing is known.
 std::string format_time(const PlanTotals& sum) {
     const std::size_t known = sum.stale - sum.failing - sum.unknown;
     if (known == 0) return "";
-    if (sum.unknown == 0) return "about " + format_duration(sum.seconds);
-    return fmt::format("\u2265 {}, {} unknown", format_duration(sum.seconds), sum.unknown);
+    const std::string time = format_duration(sum.seconds) + (sum.lacks_denoising ? " without denoising" : "");
+    if (sum.unknown == 0) return "about " + time;
+    return fmt::format("\u2265 {}, {} unknown", time, sum.unknown);
 }
 
 std::string images(std::size_t count) {
@@ -41,6 +44,11 @@ std::string failing(const BatchPlan& plan) {
     return count > 0 ? fmt::format("; {} will fail", count) : "";
 }
 
+/// True for an image that this batch renders, as far as is known.
+bool will_render(const PlannedUnit& unit) {
+    return unit.is_stale() && !unit.is_running_elsewhere && unit.error.empty();
+}
+
 /// "3 of 5 images to render, about 2:10".
 std::string counted(const BatchPlan& plan) {
     const PlanTotals sum = totals(plan);
@@ -48,7 +56,7 @@ std::string counted(const BatchPlan& plan) {
         sum.elsewhere > 0 ? fmt::format("; {} rendered elsewhere", sum.elsewhere) : std::string();
     if (sum.stale == 0)
         return images(plan.size()) + (sum.elsewhere > 0 ? ", none to render" : ", all up to date") + elsewhere;
-    std::string text = fmt::format("{} of {} to render", sum.stale, images(plan.size()));
+    std::string text = fmt::format("{} of {} to render", sum.stale - sum.failing, images(plan.size()));
     if (const std::string time = format_time(sum); !time.empty()) text += ", " + time;
     return text + elsewhere;
 }
@@ -89,7 +97,7 @@ std::string to_table(const BatchPlan& plan) {
             text += fmt::format("{:<{}}  ", row[column], widths[column]);
         text += row.back() + "\n";
     }
-    return text + failures(plan) + counted(plan) + failing(plan) + "\n";
+    return text + failures(plan) + warnings(plan) + replacements(plan) + counted(plan) + failing(plan) + "\n";
 }
 
 std::string failures(const BatchPlan& plan) {
@@ -111,6 +119,31 @@ std::string failures(const BatchPlan& plan) {
     return text;
 }
 
+std::string warnings(const BatchPlan& plan) {
+    std::set<std::pair<std::string, std::string>> said;  // scene and warning
+    std::string text;
+    for (const PlannedUnit& unit : plan) {
+        if (!will_render(unit)) continue;
+        const std::string scene = unit.task.job.scene.string();
+        for (const std::string& warning : unit.warnings)
+            if (said.emplace(scene, warning).second)
+                text += fmt::format("{}: {}\n", shown_text(scene), shown_text(warning));
+    }
+    return text;
+}
+
+std::string replacements(const BatchPlan& plan) {
+    const auto counted_as = [&](bool PlannedUnit::*loses, const char* one, const char* several) {
+        const auto count =
+            std::ranges::count_if(plan, [&](const PlannedUnit& unit) { return will_render(unit) && unit.*loses; });
+        if (count == 0) return std::string();
+        return fmt::format("{} finished image{} will be replaced by {}\n", count, count == 1 ? "" : "s",
+                           count == 1 ? one : several);
+    };
+    return counted_as(&PlannedUnit::loses_samples, "one with fewer samples", "ones with fewer samples") +
+           counted_as(&PlannedUnit::loses_pixels, "a smaller one", "smaller ones");
+}
+
 std::string to_json(const BatchPlan& plan) {
     using Json = nlohmann::ordered_json;
     const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
@@ -129,6 +162,7 @@ std::string to_json(const BatchPlan& plan) {
                          {"running_elsewhere", unit.is_running_elsewhere},
                          {"reason", text_or_null(unit.reason)},
                          {"error", text_or_null(unit.error)},
+                         {"warnings", unit.warnings},
                          {"width", number_or_null(unit.outline.width)},
                          {"height", number_or_null(unit.outline.height)},
                          {"spp", number_or_null(unit.outline.spp)},
@@ -148,7 +182,7 @@ std::string summary(const BatchPlan& plan) {
     constexpr std::size_t kMostReasons = 6;
     std::map<std::string, std::size_t> counts;
     for (const PlannedUnit& unit : plan)
-        if (unit.is_stale()) ++counts[unit.reason];
+        if (will_render(unit)) ++counts[unit.reason];
     std::vector<std::pair<std::size_t, std::string>> reasons;
     reasons.reserve(counts.size());
     for (const auto& [reason, count] : counts) reasons.emplace_back(count, reason);

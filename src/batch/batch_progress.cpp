@@ -131,9 +131,12 @@ std::optional<double> TimeLeft::left() const {
     return std::max(sum + each * static_cast<double>(unknown_to_come_), longest);
 }
 
+std::string format_count(std::size_t done, std::size_t failed, std::size_t of) {
+    return failed > 0 ? fmt::format("[{}/{}, {} failed] ", done, of, failed) : fmt::format("[{}/{}] ", done, of);
+}
+
 std::string format_line(const BatchProgressLine& line, int width) {
-    const std::string before = line.failed > 0 ? fmt::format("[{}/{}, {} failed] ", line.done, line.of, line.failed)
-                                               : fmt::format("[{}/{}] ", line.done, line.of);
+    const std::string before = format_count(line.done, line.failed, line.of);
     std::string after = fmt::format("  {} elapsed", format_duration(line.elapsed));
     if (line.left) {
         const auto left = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::duration<double>(*line.left));

@@ -65,6 +65,8 @@ struct BatchProgressLine {
     std::optional<double> left{};
     std::chrono::system_clock::time_point now{};  ///< time of day, from which that of the end is told
 };
+/// Returns "[12/40, 1 failed] ", without those that failed if none has.
+[[nodiscard]] std::string format_count(std::size_t done, std::size_t failed, std::size_t of);
 /// Formats the line of progress in `width` characters at most: the first name may lose its beginning, and images for
 /// which there is no room are counted.
 [[nodiscard]] std::string format_line(const BatchProgressLine& line, int width);

@@ -36,6 +36,10 @@ std::string time_in_words(const BatchUnit& unit, double attempt_seconds) {
     return text;
 }
 
+std::uint64_t pixels_of(const BatchUnit& unit) {
+    return static_cast<std::uint64_t>(unit.width) * static_cast<std::uint64_t>(unit.height);
+}
+
 }  // namespace
 
 BatchRecord::BatchRecord(const BatchOptions& options, BatchProgress& progress, BatchWatcher* watcher)
@@ -53,7 +57,7 @@ BatchRecord::BatchRecord(const BatchOptions& options, BatchProgress& progress, B
 }
 
 std::string BatchRecord::numbered(const std::string& name) const {
-    return fmt::format("[{}/{}] {}", done_ + 1, stale_, name);
+    return format_count(done_ + 1, failed_, stale_) + name;
 }
 
 void BatchRecord::list_tasks(const std::vector<BatchTask>& tasks, const std::vector<BatchUnit>& left_out) {
@@ -125,7 +129,7 @@ void BatchRecord::follow(std::size_t index, const ChildProgress& progress, doubl
     time_left_.follow(index, seconds, fraction, renders ? std::optional(progress.seconds) : std::nullopt);
     if (renders) {
         unit.fraction = fraction;
-        const std::uint64_t pixels = static_cast<std::uint64_t>(unit.width) * static_cast<std::uint64_t>(unit.height);
+        const std::uint64_t pixels = pixels_of(unit);
         if (pixels > 0) unit.spp = static_cast<int>(progress.samples / pixels);
     }
     if (fraction > kLeastFraction)
@@ -140,6 +144,9 @@ void BatchRecord::end_attempt(std::size_t index, const PlannedUnit& planned, con
         if (end == AttemptEnd::Done) return LedgerEventKind::UnitFinished;
         return end == AttemptEnd::Interrupted ? LedgerEventKind::UnitInterrupted : LedgerEventKind::UnitFailed;
     };
+    if (attempt.end == AttemptEnd::Done) read_unit(index, planned, attempt.denoise_seconds);
+    const bool is_denoised = attempt.denoise_seconds.has_value();
+    const int threads = attempt.threads > 0 ? attempt.threads : report_.threads;
     books_.append({.kind = kind_of(attempt.end),
                    .unit = planned.task.id,
                    .scene = unit(index).scene,
@@ -149,7 +156,17 @@ void BatchRecord::end_attempt(std::size_t index, const PlannedUnit& planned, con
                    .error = attempt.error,
                    .log = attempt.log,
                    .seconds = seconds,
+                   .denoise_seconds = attempt.denoise_seconds,
+                   .pixels = is_denoised ? pixels_of(unit(index)) : 0,
+                   .threads = is_denoised ? threads : 0,
                    .again = again});
+}
+
+void BatchRecord::read_unit(std::size_t index, const PlannedUnit& planned,
+                            const std::optional<double>& denoise_seconds) {
+    BatchUnit& unit = report_.units[index];
+    read_statistics(OutputPaths::beside(planned.task.job.output).json, unit);
+    if (unit.seconds) unit.seconds->denoise = denoise_seconds.value_or(0.0);
 }
 
 void BatchRecord::end(std::size_t index, const PlannedUnit& planned, const Attempt& attempt, double seconds) {
@@ -161,7 +178,6 @@ void BatchRecord::end(std::size_t index, const PlannedUnit& planned, const Attem
     switch (attempt.end) {
         case AttemptEnd::Done:
             unit.outcome = UnitOutcome::Rendered;
-            read_statistics(statistics, unit);
             progress_.say(fmt::format("{}: rendered in {}", numbered(unit.name), time_in_words(unit, seconds)));
             return;
         case AttemptEnd::Interrupted:
@@ -181,7 +197,7 @@ void BatchRecord::end(std::size_t index, const PlannedUnit& planned, const Attem
 void BatchRecord::give_up(std::size_t index, const PlannedUnit& planned) {
     BatchUnit& unit = report_.units[index];
     unit.outcome = UnitOutcome::NotStarted;
-    unit.error = "not tried: another image of the scene has shown that it is invalid";
+    unit.error = kNotTried;
     ++not_tried_;
     time_left_.end(index, std::nullopt);
     books_.append(
@@ -198,7 +214,7 @@ void BatchRecord::end_as_made_elsewhere(std::size_t index, const PlannedUnit& pl
                                         bool is_untold) {
     BatchUnit& unit = report_.units[index];
     unit.outcome = UnitOutcome::UpToDate;
-    read_statistics(OutputPaths::beside(planned.task.job.output).json, unit);
+    read_unit(index, planned, planned.denoise_seconds);
     time_left_.end(index, std::nullopt);
     if (is_untold)
         books_.append({.kind = LedgerEventKind::UnitFinished,

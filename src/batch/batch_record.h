@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ class BatchRecord {
     [[nodiscard]] BatchUnit& unit(std::size_t index) { return report_.units[index]; }
     /// Returns false if something could not be written; it was said when it happened.
     [[nodiscard]] bool is_kept() const { return books_.are_kept(); }
-    /// Returns `name` after the place of the image under way among those that are to be made: "[3/10] box".
+    /// Returns `name` after the place of the image under way among those that are to be made, and the number of those
+    /// that failed: "[3/10, 1 failed] box".
     [[nodiscard]] std::string numbered(const std::string& name) const;
 
     /// Reports images of which nothing is known, and `left_out` behind them.
@@ -70,6 +72,9 @@ class BatchRecord {
     void write_reports(bool in_any_case);
 
   private:
+    /// Reads what the image's files tell, whose noise took `denoise_seconds` to take out.
+    void read_unit(std::size_t index, const PlannedUnit& planned, const std::optional<double>& denoise_seconds);
+
     const BatchOptions& options_;
     BatchProgress& progress_;
     BatchWatcher* watcher_;  ///< null if nobody looks on

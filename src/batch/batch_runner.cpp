@@ -270,6 +270,7 @@ bool BatchRunner::was_made_elsewhere(std::size_t index, const BatchLock& lock) {
     history_.read_new();
     const LedgerHistory::Entry* const last = history_.find(planned.task.id);
     if (!planned.is_stale()) {
+        planned.denoise_seconds = last != nullptr ? last->denoise_seconds : std::nullopt;
         // Its owner may have died between the last of the files and the ledger.
         const bool was_told = last != nullptr && last->kind == LedgerEventKind::UnitFinished;
         record_.end_as_made_elsewhere(index, planned, lock, lock.dead_owner() && !was_told);

@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// Fills size, samples, times and the like of `unit` from the file that `etendue render` writes beside an image. What
-/// is not in it, or if it is no such file, stays unknown.
+/// Fills size, samples, times, warnings and the like of `unit` from the file that `etendue render` writes beside an
+/// image. What is not in it, or if it is no such file, stays unknown.
 void read_statistics(const std::filesystem::path& file, BatchUnit& unit);
 
 }  // namespace etendue

@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// A row for each unit that is made, up to date or failed; images are named with `output` before them. A last line
-/// counts those that were not started, if any.
+/// A row for each unit that is made, up to date or failed; images are named with `output` before them. Further lines
+/// count those that were not tried or not started, if any, and sum up.
 [[nodiscard]] std::string to_table(const BatchReport& report, const std::string& output);
 
 }  // namespace etendue

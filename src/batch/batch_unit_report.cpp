@@ -30,6 +30,7 @@ BatchUnit planned_unit(const PlannedUnit& planned, const BatchOptions& options) 
     if (unit.camera.empty()) unit.camera = planned.outline.camera;
     if (!planned.is_stale()) {
         read_statistics(OutputPaths::beside(planned.task.job.output).json, unit);
+        if (unit.seconds) unit.seconds->denoise = planned.denoise_seconds.value_or(0.0);
         return unit;
     }
     unit.error = planned.error;
@@ -50,6 +51,8 @@ BatchUnit left_out_unit(const BatchTask& task, const BatchOptions& options, cons
     if (!why_unfinished(paths) && !why_outdated(paths, task.job.scene)) {
         unit.outcome = UnitOutcome::UpToDate;
         read_statistics(paths.json, unit);
+        const bool is_denoised = options.denoise && last != nullptr;
+        if (unit.seconds && is_denoised) unit.seconds->denoise = last->denoise_seconds.value_or(0.0);
     } else if (last != nullptr && last->kind == LedgerEventKind::UnitFailed) {
         unit.outcome = UnitOutcome::Failed;
         unit.error = last->error;

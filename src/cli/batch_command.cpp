@@ -197,7 +197,8 @@ ExitCode make_batch(const BatchOptions& options, const std::optional<int>& live,
         return interrupt_exit_code();
     }
     progress->say(summary(plan));
-    if (const std::string wrong = failures(plan); !wrong.empty()) progress->say(wrong.substr(0, wrong.size() - 1));
+    for (const std::string& lines : {failures(plan), replacements(plan)})
+        if (!lines.empty()) progress->say(lines.substr(0, lines.size() - 1));
     if (is_command_line_wrong(plan)) {
         runner.fail_all();
         report = runner.report();

@@ -57,9 +57,9 @@ void note_costly_stamps(ProfileReport& report) {
 }
 
 void note_other_work(ProfileReport& report) {
+    if (const std::string note = busy_machine(report.runs); !note.empty()) report.notes.push_back(note);
     for (const ProfileRun& run : report.runs)
-        for (const std::string& note : {busy_machine(run), disagreement_of_repetitions(run)})
-            if (!note.empty()) report.notes.push_back(note);
+        if (const std::string note = disagreement_of_repetitions(run); !note.empty()) report.notes.push_back(note);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "picture/output_paths.h"
 #include "session/file_color_space.h"
 #include "session/input_files.h"
+#include "session/output_directory.h"
 #include "session/usage_error.h"
 
 #include <algorithm>
@@ -220,13 +221,14 @@ ExitCode run_view(const ViewArguments& arguments) {
     const ColorConfig colors = ColorConfig::from_environment();
     if (arguments.list) return run_list(arguments, colors);
     const std::filesystem::path path = arguments.file;
-    require_writable(arguments.output);
     require_files_kept("--output", std::array{arguments.output}, {path});
     const LayeredImage file = of_file(arguments.file, [&] { return read_layers(path); });
     const ImageLayer layer = chosen_layer(file, arguments);
     const bool is_matte = is_cryptomatte(layer, file);
     const bool colored = is_colors(layer, is_matte, arguments);
     if (colored) (void)display_view(arguments, colors.default_working_space(), 0.0f, colors);
+    make_directory_of(arguments.output);
+    require_writable(arguments.output);
     ImageF pixels = of_file(arguments.file, [&] { return read_layer(path, layer); });
 
     ImageWriteOptions options;

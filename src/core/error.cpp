@@ -1,5 +1,7 @@
 #include "core/error.h"
 
+#include "core/shown_text.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -36,6 +38,14 @@ ProblemList single_error(SourceLocation where, std::string message) {
     return problems;
 }
 
+/// Returns the beginning and the end of a `text` that is longer than `most` bytes, else all of it.
+std::string shortened(std::string text, std::size_t most) {
+    constexpr std::string_view kGap = " ... ";
+    if (text.size() <= most) return text;
+    const std::size_t half = (most - kGap.size()) / 2;
+    return std::string(first_characters(text, half)).append(kGap).append(last_characters(text, half));
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -60,10 +70,12 @@ std::string Problem::str() const {
 
 void ProblemList::add(Problem problem) {
     if (problem.severity == Severity::Error) ++error_count_;
-    if (problems_.size() >= kMaxProblems) {
+    if (is_full()) {
         ++dropped_;
         return;
     }
+    problem.where.pointer = shortened(std::move(problem.where.pointer), kMaxPointer);
+    problem.message = shortened(std::move(problem.message), kMaxMessage);
     problems_.push_back(std::move(problem));
 }
 
@@ -75,13 +87,15 @@ SceneError::SceneError(SourceLocation where, std::string message)
 
 std::string name_hint(std::string_view name, std::span<const std::string_view> known) {
     constexpr std::size_t kMostListed = 20;
+    constexpr std::size_t kLongestListed = 64;
     if (known.empty()) return "there is no other either";
     const std::string nearest = nearest_name(name, known);
     if (!nearest.empty()) return "did you mean '" + nearest + "'?";
     std::string list = "there are ";
     for (std::size_t i = 0; i < std::min(known.size(), kMostListed); ++i) {
         if (i > 0) list += ", ";
-        list.append("'").append(known[i]).append("'");
+        const std::string_view part = first_characters(known[i], kLongestListed);
+        list.append("'").append(part).append(part.size() < known[i].size() ? "...'" : "'");
     }
     if (known.size() > kMostListed) list += " and " + std::to_string(known.size() - kMostListed) + " more";
     return list;
@@ -89,10 +103,16 @@ std::string name_hint(std::string_view name, std::span<const std::string_view> k
 
 std::string nearest_name(std::string_view name, std::span<const std::string_view> known) {
     constexpr std::size_t kLongestName = 64;  // the distance is quadratic in the length; longer names get no suggestion
+    constexpr std::size_t kMostWork = std::size_t{1} << 21;  // pairs of characters: thousands of names as people write
     if (name.size() > kLongestName) return {};
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+    std::size_t work = 0;
     for (const std::string_view candidate : known) {
+        if (std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size()) >= best_distance)
+            continue;
+        if (work > kMostWork) break;
+        work += (name.size() + 1) * (candidate.size() + 1);
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < best_distance) {
             best = candidate;

@@ -31,11 +31,14 @@ struct Problem {
     [[nodiscard]] std::string str() const;
 };
 
-/// All problems found, in the order in which they were found. At most `kMaxProblems` are kept, so that a hostile file
-/// cannot exhaust memory; how many more there were is counted.
+/// All problems found, in the order in which they were found. At most `kMaxProblems` are kept, and of a long pointer or
+/// message only its beginning and its end, so that a hostile file cannot exhaust memory; how many more problems there
+/// were is counted.
 class ProblemList {
   public:
     static constexpr std::size_t kMaxProblems = 1000;
+    static constexpr std::size_t kMaxPointer = 1024;  ///< bytes
+    static constexpr std::size_t kMaxMessage = 4096;  ///< bytes
 
     void note(SourceLocation where, std::string message) {
         add({Severity::Note, std::move(where), std::move(message)});
@@ -52,6 +55,8 @@ class ProblemList {
     [[nodiscard]] bool has_errors() const { return error_count_ > 0; }
     [[nodiscard]] std::size_t error_count() const { return error_count_; }
     [[nodiscard]] std::size_t dropped() const { return dropped_; }
+    /// Returns whether another problem would only be counted: nobody reads its message.
+    [[nodiscard]] bool is_full() const { return problems_.size() >= kMaxProblems; }
 
   private:
     std::vector<Problem> problems_;
@@ -84,10 +89,11 @@ class ReplacedInput : public IoError {
 };
 
 /// Suggests what to write instead of `name`: "did you mean 'x'?" if one of `known` is near enough, else a list of the
-/// first 20 of `known`.
+/// first 20 of `known`, of each its first 64 bytes.
 [[nodiscard]] std::string name_hint(std::string_view name, std::span<const std::string_view> known);
 
-/// The member of `known` nearest to `name` in edit distance if it is near enough to suggest, else an empty string.
+/// The member of `known` nearest to `name` in edit distance if it is near enough to suggest, else an empty string. Of
+/// thousands, only the first ones are looked at.
 [[nodiscard]] std::string nearest_name(std::string_view name, std::span<const std::string_view> known);
 
 }  // namespace etendue

@@ -23,7 +23,7 @@ Vec3d front_of(const LightTriangle& t) {
 
 }  // namespace
 
-std::optional<LightRectangle> LightRectangle::find(std::span<const LightTriangle> triangles) {
+std::optional<LightRectangle> LightRectangle::find(std::span<const LightTriangle> triangles, float clearance) {
     constexpr double kTolerance = 1e-5;  // of sides and angles
     if (triangles.size() != 2) return std::nullopt;
     if (!(front_of(triangles[0]).dot(front_of(triangles[1])) > 0.0)) return std::nullopt;
@@ -64,6 +64,8 @@ std::optional<LightRectangle> LightRectangle::find(std::span<const LightTriangle
         const double area = x.cross(y).length();
         const double near = 0.5 * (x + y).length() + std::sqrt(1.001 * area / static_cast<double>(kLeastSolidAngle));
         found.near_squared_ = static_cast<float>(near * near);
+        // The points of other surfaces are rounded, too, and so is their distance.
+        found.flat_ = 4.0f * clearance;
         return found;
     }
     return std::nullopt;
@@ -72,6 +74,8 @@ std::optional<LightRectangle> LightRectangle::find(std::span<const LightTriangle
 std::optional<SphericalRectangle> LightRectangle::seen_nearby(const Vec3f& point) const {
     const Vec3f to_corner = corner_ - point;
     const Vec3f corner(dot(to_corner, axis_x_), dot(to_corner, axis_y_), dot(to_corner, normal_));
+    // A plane does not light itself: rounding alone would have half a sphere of it seen from each of its points.
+    if (std::abs(corner.z) <= flat_) return std::nullopt;
     // The solid angle is the integral of |z| / d³ over the area, so at most its largest value times the area.
     const float x = std::max({corner.x, -corner.x - size_.x, 0.0f});
     const float y = std::max({corner.y, -corner.y - size_.y, 0.0f});

@@ -22,7 +22,9 @@ struct RectanglePlace {
 class LightRectangle {
   public:
     /// Returns the rectangle that `triangles` make, both with the same side as their front; none if they do not.
-    [[nodiscard]] static std::optional<LightRectangle> find(std::span<const LightTriangle> triangles);
+    /// `clearance` bounds what rounding may have moved their points by, metres.
+    [[nodiscard]] static std::optional<LightRectangle> find(std::span<const LightTriangle> triangles,
+                                                            float clearance = 0.0f);
 
     /// Returns the rectangle as it is seen from `point`, if that may be by so large a solid angle that samples by area
     /// are noisier.
@@ -48,6 +50,7 @@ class LightRectangle {
     Vec3f axis_x_{0.0f}, axis_y_{0.0f}, normal_{0.0f};  ///< unit
     Vec2f size_{0.0f, 0.0f};                            ///< metres along the first two
     float near_squared_ = 0.0f;   ///< m², of distances from the middle: beyond, samples are by area
+    float flat_ = 0.0f;           ///< metres from the plane: points within lie in it, but for rounding
     std::array<Half, 2> halves_;  ///< the first is that of the corner
 };
 

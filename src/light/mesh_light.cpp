@@ -33,7 +33,9 @@ MeshLight::MeshLight(const std::vector<LightTriangle>& triangles, Rgb radiance, 
     }
     area_ = static_cast<float>(total);
     by_area_ = AliasTable(areas);
-    rectangle_ = LightRectangle::find(triangles);
+    float most_clearance = 0.0f;
+    for (const Face& face : faces_) most_clearance = std::max(most_clearance, face.clearance);
+    rectangle_ = LightRectangle::find(triangles, most_clearance);
     if (!two_sided_) pair_opposites(areas);
 }
 

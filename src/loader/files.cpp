@@ -6,6 +6,7 @@
 #include "loader/json_text.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -107,8 +108,23 @@ bool is_same_on_windows(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, {}, plain, plain);
 }
 
+bool is_image_extension(std::string_view extension) {
+    constexpr std::array<std::string_view, 9> kImages{".png", ".jpg", ".jpeg", ".webp", ".ktx2",
+                                                      ".exr", ".hdr", ".tif",  ".tiff"};
+    return std::ranges::find(kImages, extension) != kImages.end();
+}
+
+/// True if `file` may have been meant by `name`: both are images, or their extensions differ by a slip at most. So no
+/// buffer is taken for the glTF file that names it.
+bool is_of_one_kind(const fs::path& file, const fs::path& name) {
+    const std::string extension = lower_extension(file);
+    const std::string wanted = lower_extension(name);
+    if (is_image_extension(extension) && is_image_extension(wanted)) return true;
+    return extension == wanted || !nearest_name(wanted, std::array<std::string_view, 1>{extension}).empty();
+}
+
 /// Suggests a file that exists in place of `name`, or returns nothing: names may differ by how an accent is encoded, by
-/// upper case, or by '\\' for '/'.
+/// upper case, by '\\' for '/', or by a few letters.
 std::string similar_file(const fs::path& root, std::string_view name) {
     constexpr std::size_t kMostFiles = 1000;
     std::vector<std::string> names;
@@ -125,7 +141,9 @@ std::string similar_file(const fs::path& root, std::string_view name) {
             return fmt::format("; there is '{}', which may look the same: its letters are encoded another way",
                                shown(names.back()));
     }
-    const std::vector<std::string_view> known(names.begin(), names.end());
+    std::vector<std::string_view> known;
+    for (const std::string& file : names)
+        if (is_of_one_kind(file, name)) known.push_back(file);
     const std::string nearest = nearest_name(name, known);
     return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", shown(nearest));
 }

@@ -114,6 +114,7 @@ std::string to_json(const RenderStatistics& s) {
                         {"cache_budget_bytes", s.texture_cache_budget},
                         {"failed_lookups", s.failed_texture_lookups}};
     json["missing_textures"] = s.missing_textures;
+    json["warnings"] = s.warnings;
     json["dropped_samples"] = {{"count", s.dropped_samples}, {"first", to_object(s.first_dropped)}};
     json["clamp_indirect"] =
         s.clamp_indirect > 0.0f

@@ -126,6 +126,7 @@ struct RenderStatistics {
 
     std::uint64_t textures = 0;
     std::uint64_t missing_textures = 0;        ///< images that could not be read, which materials do without
+    std::vector<std::string> warnings;         ///< warnings of loading and compiling the scene, as they were told
     std::uint64_t texture_bytes = 0;           ///< decoded and held at the end
     bool textures_cached = false;              ///< they are read piece by piece, as they do not fit
     std::uint64_t texture_cache_budget = 0;    ///< bytes

@@ -118,6 +118,7 @@ Json to_object(const RenderStatistics& s) {
             {"instances", s.instances},
             {"lights", s.lights},
             {"missing_textures", s.missing_textures},
+            {"warnings", s.warnings},
             {"camera", s.camera},
             {"integrator_choice", s.integrator_choice},
             {"isa", s.isa},
@@ -141,6 +142,7 @@ RenderStatistics to_statistics(const Json& json) {
     json.at("instances").get_to(s.instances);
     json.at("lights").get_to(s.lights);
     json.at("missing_textures").get_to(s.missing_textures);
+    s.warnings = json.value("warnings", std::vector<std::string>());
     s.camera = json.value("camera", "");
     json.at("integrator_choice").get_to(s.integrator_choice);
     json.at("isa").get_to(s.isa);

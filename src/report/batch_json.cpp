@@ -19,11 +19,8 @@ Json positive(int number) {
 }
 
 Json batch_object(const UnitSeconds& seconds) {
-    return {{"load", seconds.load},
-            {"build", seconds.build},
-            {"render", seconds.render},
-            {"write", seconds.write},
-            {"total", seconds.total()}};
+    return {{"load", seconds.load},   {"build", seconds.build},     {"render", seconds.render},
+            {"write", seconds.write}, {"denoise", seconds.denoise}, {"total", seconds.total()}};
 }
 
 Json batch_object(const BatchTotals& sum) {
@@ -36,6 +33,8 @@ Json batch_object(const BatchTotals& sum) {
             {"running_elsewhere", sum.running_elsewhere},
             {"not_started", sum.not_started},
             {"not_chosen", sum.not_chosen},
+            {"not_tried", sum.not_tried},
+            {"with_warnings", sum.with_warnings},
             {"seconds", batch_object(sum.seconds)},
             {"rays", sum.rays},
             {"peak_memory_bytes", sum.peak_memory_bytes}};
@@ -58,6 +57,7 @@ Json batch_object(const BatchUnit& unit) {
             {"attempts", unit.attempts},
             {"host", known(unit.host)},
             {"log", unit.log},
+            {"warnings", unit.warnings},
             {"width", positive(unit.width)},
             {"height", positive(unit.height)},
             {"spp", positive(unit.spp)},
@@ -66,6 +66,8 @@ Json batch_object(const BatchUnit& unit) {
             {"seconds_left", known(unit.seconds_left)},
             {"integrator", known(unit.integrator)},
             {"halt_reason", known(unit.halt_reason)},
+            {"relative_error", known(unit.relative_error)},
+            {"relative_error_requested", known(unit.relative_error_requested)},
             {"seconds", unit.seconds ? batch_object(*unit.seconds) : Json()},
             {"seconds_before", unit.seconds_before},
             {"estimated_seconds", known(unit.estimated_seconds)},

@@ -35,6 +35,8 @@ BatchTotals totals(const BatchReport& report) {
     sum.units = report.units.size();
     for (const BatchUnit& unit : report.units) {
         ++count_of(sum, unit.outcome);
+        if (!unit.warnings.empty()) ++sum.with_warnings;
+        if (unit.outcome == UnitOutcome::NotStarted && unit.error == kNotTried) ++sum.not_tried;
         sum.peak_memory_bytes = std::max(sum.peak_memory_bytes, unit.peak_memory_bytes.value_or(0));
         if (unit.outcome != UnitOutcome::Rendered && unit.outcome != UnitOutcome::Interrupted) continue;
         sum.rays += unit.rays.value_or(0) - std::min(unit.rays_before, unit.rays.value_or(0));
@@ -43,6 +45,7 @@ BatchTotals totals(const BatchReport& report) {
         sum.seconds.build += unit.seconds->build;
         sum.seconds.render += std::max(0.0, unit.seconds->render - unit.seconds_before);
         sum.seconds.write += unit.seconds->write;
+        sum.seconds.denoise += unit.seconds->denoise;
     }
     return sum;
 }

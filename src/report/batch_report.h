@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
@@ -28,10 +29,14 @@ struct UnitSeconds {
     double load = 0.0;   ///< reading the scene
     double build = 0.0;  ///< compiling the world
     double render = 0.0;
-    double write = 0.0;  ///< the images
+    double write = 0.0;    ///< the images
+    double denoise = 0.0;  ///< taking the noise out of the image, and showing that
 
-    [[nodiscard]] double total() const { return load + build + render + write; }
+    [[nodiscard]] double total() const { return load + build + render + write + denoise; }
 };
+
+/// The error of an image that is not tried.
+inline constexpr std::string_view kNotTried = "not tried: another image of the scene has shown that it is invalid";
 
 /// One image. The statistics are those of the file beside it, of the run that made it: units that are up to date have
 /// them too.
@@ -45,13 +50,14 @@ struct BatchUnit {
     std::string image{};    ///< the EXR, relative to the output directory
     std::string preview{};  ///< the PNG that is looked at, relative to the output directory; empty if there is none
     UnitOutcome outcome = UnitOutcome::NotStarted;
-    bool is_chosen = true;           ///< false if the batch was told to leave it as it is
-    std::string reason{};            ///< why it was stale: "settings changed"; empty if it was not
-    std::string error{};             ///< one message of any number of lines, if it failed
-    std::string signal{};            ///< signal that ended its process: "SIGSEGV"; empty if none did
-    int attempts = 0;                ///< attempts that this batch made
-    std::string host{};              ///< where it was rendered, or is
-    std::vector<std::string> log{};  ///< its last lines, oldest first; a few dozen at most
+    bool is_chosen = true;                ///< false if the batch was told to leave it as it is
+    std::string reason{};                 ///< why it was stale: "settings changed"; empty if it was not
+    std::string error{};                  ///< one message of any number of lines, if it failed
+    std::string signal{};                 ///< signal that ended its process: "SIGSEGV"; empty if none did
+    int attempts = 0;                     ///< attempts that this batch made
+    std::string host{};                   ///< where it was rendered, or is
+    std::vector<std::string> log{};       ///< its last lines, oldest first; a few dozen at most
+    std::vector<std::string> warnings{};  ///< what is wrong with the image all the same; a few dozen at most
 
     int width = 0;  ///< pixels rendered; 0 if not known
     int height = 0;
@@ -59,6 +65,8 @@ struct BatchUnit {
     int spp_requested = 0;  ///< asked for; 0 if not known
     std::string integrator{};
     std::string halt_reason{};
+    std::optional<double> relative_error{};            ///< estimated
+    std::optional<double> relative_error_requested{};  ///< asked for; none if none was
     std::optional<UnitSeconds> seconds{};
     double seconds_before = 0.0;                ///< part of `seconds` from before the last attempt
     std::uint64_t rays_before = 0;              ///< part of `rays` from before the last attempt
@@ -107,6 +115,8 @@ struct BatchTotals {
     std::size_t running_elsewhere = 0;
     std::size_t not_started = 0;
     std::size_t not_chosen = 0;
+    std::size_t not_tried = 0;      ///< units of `not_started` whose scene has failed
+    std::size_t with_warnings = 0;  ///< units, whatever became of them
     UnitSeconds seconds{};
     std::uint64_t rays = 0;
     std::uint64_t peak_memory_bytes = 0;  ///< the largest of all units

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace etendue {
 
@@ -61,6 +62,12 @@ ThreadTime thread_time(const ProfileRun& run) {
     const double without_tile = run.threads > 1 ? std::max(0.0, all - tiles) * rate(cpu, tiles) : 0.0;
     const double idle = std::max(0.0, without_tile - std::max(0.0, run.instrumented_cpu_seconds - cpu));
     return {rate(without_tile, all), 1.0 - rate(run.instrumented_cpu_seconds + idle, all)};
+}
+
+/// True if others took so much of the threads' time that what was taken by the clock says nothing about the render.
+bool was_disturbed(const ProfileRun& run) {
+    constexpr double kMostTaken = 0.2;
+    return thread_time(run).taken > kMostTaken;
 }
 
 class Adviser {
@@ -181,6 +188,7 @@ class Adviser {
                 "threads have no tile for {} of their time, most of it at the ends of passes; larger images and "
                 "more --spp leave less of it",
                 human_percent(waiting)));
+        if (was_disturbed(run_)) return;
         if (run_.threads > 1 && run_.parallel_efficiency < 0.8)
             add(costs_, 1.0 - run_.parallel_efficiency, 0.0,
                 fmt::format("{} threads do the work of {:.1f}", run_.threads, run_.threads * run_.parallel_efficiency));
@@ -205,15 +213,22 @@ std::vector<std::string> advice(const ProfileRun& run) {
     return sorted_texts(Adviser(run).changes());
 }
 
-std::string busy_machine(const ProfileRun& run) {
-    constexpr double kMostTaken = 0.2;
-    const double taken = thread_time(run).taken;
-    if (!(taken > kMostTaken)) return "";
+std::string busy_machine(const std::vector<ProfileRun>& runs) {
+    std::vector<std::string> names;
+    std::vector<double> taken;
+    for (const ProfileRun& run : runs) {
+        if (!was_disturbed(run)) continue;
+        names.push_back(fmt::format("{}, threads: {}", run.integrator, run.threads));
+        taken.push_back(thread_time(run).taken);
+    }
+    if (taken.empty()) return "";
+    const auto [least, most] = std::ranges::minmax(taken);
+    const std::string from = taken.size() > 1 ? human_percent(least) + " to " : "";
     return fmt::format(
-        "{}, threads: {}: other programs, or the system, took {} of the threads' time: CPU times, bare Embree's "
-        "rates and efficiency still hold, except that others use the caches too; seconds of stages, rays per second "
-        "of the renderer and all else by the clock do not",
-        run.integrator, run.threads, human_percent(taken));
+        "{}: other programs, or the system, took {}{} of the threads' time: CPU times, bare Embree's rates and "
+        "efficiency still hold, except that others use the caches too; seconds of stages, rays per second of the "
+        "renderer and all else by the clock do not",
+        fmt::join(names, "; "), from, human_percent(most));
 }
 
 std::string disagreement_of_repetitions(const ProfileRun& run) {

@@ -14,8 +14,9 @@ namespace etendue {
 /// Returns sentences on what would make `run` less work, the most first; none where nothing would.
 [[nodiscard]] std::vector<std::string> advice(const ProfileRun& run);
 
-/// Returns a sentence if others took more than a fifth of the threads' time while stages were timed; else empty.
-[[nodiscard]] std::string busy_machine(const ProfileRun& run);
+/// Returns a sentence on the runs of which others took more than a fifth of the threads' time while stages were timed;
+/// empty if there are none.
+[[nodiscard]] std::string busy_machine(const std::vector<ProfileRun>& runs);
 
 /// A sentence if the repetitions of `run` differ by more than a tenth in their CPU time; else empty.
 [[nodiscard]] std::string disagreement_of_repetitions(const ProfileRun& run);

@@ -259,6 +259,7 @@ std::string to_json(const ProfileReport& report) {
                   {"bvh", to_object(report.bvh)},
                   {"memory", {{"owners", counted(report.memory, "bytes")}, {"peak_bytes", report.peak_memory_bytes}}},
                   {"notes", report.notes},
+                  {"busy", known(busy_machine(report.runs))},
                   {"against", report.against ? to_object(*report.against) : Json()},
                   {"accelerators", report.accelerators ? accelerators_object(*report.accelerators) : Json()},
                   {"history", array_of(report.history)},

@@ -94,16 +94,26 @@ std::string paths_of(const PathsReport& paths, const char* kind) {
            fmt::format("  rays of {}s: {:.2f} on average, {} at most\n", kind, rays / count, paths.lengths.size() - 1);
 }
 
-std::string paths(const ProfileRun& run) {
-    std::string text = paths_of(run.eye_paths, "eye path") + paths_of(run.light_paths, "light subpath");
-    if (run.longest.empty()) return text;
+/// Says where the longest eye paths are, or how many there are if all of these have `max_depth` rays.
+std::string longest_paths(const ProfileRun& run, int max_depth) {
+    if (run.longest.empty()) return "";
+    const std::vector<std::uint64_t>& lengths = run.eye_paths.lengths;
+    const auto limit = static_cast<std::size_t>(max_depth);
+    const auto is_at_limit = [&](const LongPathReport& path) { return path.vertices == max_depth + 1; };
+    if (limit < lengths.size() && std::ranges::all_of(run.longest, is_at_limit))
+        return fmt::format("  eye paths that reached the limit of {} rays: {}\n", max_depth, lengths[limit]);
     std::string places;
     for (std::size_t i = 0; i < std::min(kLongestPaths, run.longest.size()); ++i) {
         const LongPathReport& path = run.longest[i];
         places += fmt::format("{}{} vertices at ({}, {}), sample {}", i == 0 ? "" : "; ", path.vertices, path.x, path.y,
                               path.sample);
     }
-    return text + wrapped("  longest eye paths: " + places, kIndent + 2);
+    return wrapped("  longest eye paths: " + places, kIndent + 2);
+}
+
+std::string paths(const ProfileRun& run, int max_depth) {
+    return paths_of(run.eye_paths, "eye path") + paths_of(run.light_paths, "light subpath") +
+           longest_paths(run, max_depth);
 }
 
 std::string expensive_tiles(const ProfileRun& run) {
@@ -155,12 +165,13 @@ std::string listed(const char* title, const std::vector<std::string>& sentences)
     return text.empty() ? text : fmt::format("  {}:\n{}", title, text);
 }
 
-std::string run_text(const ProfileRun& run) {
+std::string run_text(const ProfileRun& run, int max_depth) {
     std::string text = fmt::format("\n{}, {} thread{}\n", run.integrator, run.threads, run.threads == 1 ? "" : "s");
     if (!run.kinds.empty()) text += rays(run) + '\n';
     if (!run.stages.empty()) text += stages(run) + '\n';
-    return text + shares(run) + '\n' + paths(run) + expensive_tiles(run) + hits(run.scene_hits, sum_of(run.stages)) +
-           hardware(run) + listed("what takes the time", costs(run)) + listed("what to change", advice(run));
+    return text + shares(run) + '\n' + paths(run, max_depth) + expensive_tiles(run) +
+           hits(run.scene_hits, sum_of(run.stages)) + hardware(run) + listed("what takes the time", costs(run)) +
+           listed("what to change", advice(run));
 }
 
 std::string phases(const ProfileReport& report) {
@@ -192,8 +203,10 @@ std::string memory(const ProfileReport& report) {
 }  // namespace
 
 std::string to_table(const ProfileReport& report) {
-    std::string text = wrapped(fmt::format("{}, {} x {} pixels, paths of up to {} edges", report.scene, report.width,
-                                           report.height, report.max_depth));
+    const std::string busy = busy_machine(report.runs);
+    std::string text = busy.empty() ? "" : wrapped("Note: " + busy, kIndent) + '\n';
+    text += wrapped(fmt::format("{}, {} x {} pixels, paths of up to {} edges", report.scene, report.width,
+                                report.height, report.max_depth));
     const std::string nodes =
         report.memory_nodes > 1 ? fmt::format(" at {} memory nodes", report.memory_nodes) : std::string();
     text += wrapped(fmt::format("{}, {} processors{}, {}; {}", report.processor, report.processors, nodes, report.isa,
@@ -206,11 +219,13 @@ std::string to_table(const ProfileReport& report) {
     text += wrapped(
         "rays: renderer/s are rays per second of one thread while it traces them; single and packets, bare Embree's",
         kIndent);
-    for (const ProfileRun& run : report.runs) text += run_text(run);
+    for (const ProfileRun& run : report.runs) text += run_text(run, report.max_depth);
     text += '\n' + phases(report) + '\n' + bvh_text(report.bvh) + '\n' + memory(report);
     if (report.accelerators) text += '\n' + to_table(*report.accelerators);
-    if (!report.notes.empty()) text += '\n';
-    for (const std::string& note : report.notes) text += wrapped("Note: " + note, kIndent);
+    std::string notes;
+    for (const std::string& note : report.notes)
+        if (note != busy) notes += wrapped("Note: " + note, kIndent);
+    if (!notes.empty()) text += '\n' + notes;
     if (report.against) text += '\n' + to_table(*report.against);
     return text;
 }

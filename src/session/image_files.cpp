@@ -234,8 +234,8 @@ void note_brightest(const OutputPaths& paths, const OutputFrame& frame, const Co
 void note_exposure(const OutputPaths& paths, const RenderStatistics& statistics) {
     if (paths.png.empty()) return;
     if (!statistics.exposure_reason.empty())
-        log_info("{}: exposure {:+.2f} stops (--exposure): {}", paths.png.string(), statistics.exposure.value_or(0.0f),
-                 statistics.exposure_reason);
+        log_info("{}: exposure {:+.2f} stops (chosen; --exposure sets it): {}", paths.png.string(),
+                 statistics.exposure.value_or(0.0f), statistics.exposure_reason);
     constexpr double kMuch = 0.05;
     if (statistics.clipped_share.value_or(0.0) > kMuch)
         log_warning("note: {}: {:.0f}% of the pixels are as bright as it can show; a lower --exposure shows more",

@@ -5,6 +5,7 @@
 #include "picture/render_setup.h"
 #include "session/image_files.h"
 #include "session/input_files.h"
+#include "session/output_directory.h"
 #include "session/up_to_date.h"
 #include "session/usage_error.h"
 
@@ -27,6 +28,7 @@ OutputPaths paths_of(const PlannedOutput& planned) {
 }
 
 void require_all_writable(const OutputPaths& paths) {
+    make_directory_of(paths.exr);
     for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
         if (!path.empty()) require_writable(path);
 }
@@ -92,6 +94,7 @@ void check_outputs(const PlannedOutput& planned) {
             throw SceneError(planned.scene.settings.at("/crop"),
                              "a part lies within the image and its overscan: give it --overscan as well");
         require_depths_of_part(output, planned.options, planned.aovs, planned.integrator);
+        make_directory_of(output);
         require_writable(output);
         return;
     }

@@ -22,7 +22,7 @@ struct PlannedOutput {
 };
 
 /// Throws SceneError or UsageError if a file of the render would replace an input, or an image or a layer of another
-/// render, and IoError if one cannot be written.
+/// render, and IoError if one cannot be written. Makes directories that are missing.
 void check_outputs(const PlannedOutput& planned);
 
 /// Throws SceneError if `output`, such as NAME.LAYER.exr, has the name of a layer of another image, NAME.exr.

@@ -9,6 +9,12 @@
 
 namespace etendue {
 
+void make_directory_of(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (const std::filesystem::path directory = file.parent_path(); !directory.empty())
+        std::filesystem::create_directories(directory, ignored);
+}
+
 std::vector<std::filesystem::path> prepare_directory(const std::filesystem::path& directory,
                                                      const std::vector<std::string>& names,
                                                      std::span<const std::filesystem::path> inputs) {

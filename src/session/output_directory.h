@@ -1,4 +1,4 @@
-// The directory that a report is written into.
+// The directories that files are written into.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,9 @@
 #include <vector>
 
 namespace etendue {
+
+/// Makes the directory of `file` if it is missing; whether that failed, `require_writable` says.
+void make_directory_of(const std::filesystem::path& file);
 
 /// Makes `directory`, which --output names, and those below that are in `names`, and returns its files of these names.
 /// Throws IoError if they could not be written, ReplacedInput if one of them is one of `inputs`.

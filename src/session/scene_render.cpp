@@ -229,6 +229,8 @@ class SceneRender {
         World world = ray_code().compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_,
                                                problems_, {});
         report_problems();
+        for (const Problem& problem : problems_.all())
+            if (problem.severity == Severity::Warning) description_.statistics.warnings.push_back(problem.str());
         description_.statistics.build = timer.elapsed();
         fill_world_statistics(world, description_.statistics);
         describe_camera(description_, world);
@@ -388,6 +390,7 @@ class SceneRender {
         }
         if (const auto note = few_buckets(description_.statistics); note && !request_.quiet)
             log_warning("note: {}: {}", output_.string(), *note);
+        note_error(rendered.halt_reason);
         resolve_layers(description_, rendered);
         for (RenderWatcher* const watcher : request_.watchers) watcher->show(description_);
         const PixelDepth depth = request_.overrides.depth;
@@ -403,6 +406,15 @@ class SceneRender {
         note_brightest(paths_, description_.frame, colors_, depth);
         note_exposure(paths_, description_.statistics);
         note_earlier_files(earlier);
+    }
+
+    /// Says so if there were no more samples before the error was as small as was asked for.
+    void note_error(HaltReason halt_reason) const {
+        const double wanted = options_.relative_error;
+        const double error = description_.statistics.relative_error.value_or(0.0);
+        if (request_.quiet || halt_reason != HaltReason::SamplesDone || !(wanted > 0.0 && error > wanted)) return;
+        log_warning("note: {}: error {:.3g} in place of {:g}: all {} samples were taken first; give a larger --spp",
+                    output_.string(), error, wanted, options_.spp);
     }
 
     [[nodiscard]] const std::string& title() const {

@@ -6,6 +6,7 @@
 #include "support/file_calls.h"
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -67,6 +68,26 @@ TEST_F(Ledger, HasALineForEachEventWithWhatIsKnown) {
     EXPECT_EQ(failed["seconds"], 1.5);
     EXPECT_FALSE(failed.contains("exit_code"));
     EXPECT_EQ(failed["time"].get<std::string>().size(), std::string("2026-11-22T14:03:07.123Z").size());
+}
+
+TEST_F(Ledger, TellsHowLongDenoisingTakes) {
+    EXPECT_FALSE(history_.denoise_seconds(100, 1));
+    append(LedgerEventKind::UnitFinished, "plain");
+    const auto denoised = [&](const std::string& unit, double seconds, std::uint64_t pixels, int threads) {
+        ledger_.append({.kind = LedgerEventKind::UnitFinished,
+                        .unit = unit,
+                        .denoise_seconds = seconds,
+                        .pixels = pixels,
+                        .threads = threads});
+    };
+    denoised("a", 8.0, 100, 1);
+    denoised("b", 2.0, 300, 4);
+    history_.read_new();
+    EXPECT_EQ(history_.denoise_seconds(100, 1), 4.0);
+    EXPECT_EQ(history_.denoise_seconds(200, 4), 2.0);
+    EXPECT_FALSE(history_.denoise_seconds(0, 4)) << "its size is not known";
+    EXPECT_EQ(history_.find("b")->denoise_seconds, 2.0);
+    EXPECT_FALSE(history_.find("plain")->denoise_seconds);
 }
 
 TEST_F(Ledger, EveryLineIsOnTheDiskWhenItIsAppended) {

@@ -50,6 +50,32 @@ TEST(BatchTable, CountsWhatWasNotStarted) {
     EXPECT_NE(to_table(report, "out").find("\n1 image was not started\n"), std::string::npos);
     report.units[0].outcome = UnitOutcome::NotStarted;
     EXPECT_NE(to_table(report, "out").find("\n2 images were not started\n"), std::string::npos);
+    report.units[0].error = kNotTried;
+    EXPECT_NE(to_table(report, "out")
+                  .find("\n1 image was not tried, as its scene failed\n1 image was not started\n"
+                        "0 rendered in 0.0 s; out/index.html\n"),
+              std::string::npos)
+        << to_table(report, "out");
+}
+
+TEST(BatchTable, SumsUp) {
+    BatchReport report = report_of({"a", "b", "c"});
+    report.units[1].warnings = {"warning: one", "warning: two"};
+    report.units[2].outcome = UnitOutcome::Failed;
+    report.seconds = 142.0;
+    const std::string table = to_table(report, "out");
+    EXPECT_NE(table.find("\n2 rendered, 1 failed in 2:22; 1 with warnings; out/index.html\n"), std::string::npos)
+        << table;
+}
+
+TEST(BatchTable, HasAColumnForErrorsThatWereAskedFor) {
+    BatchReport report = report_of({"a", "b"});
+    EXPECT_EQ(to_table(report, "out").find("error"), std::string::npos);
+    report.units[1].relative_error = 0.0341234;
+    report.units[1].relative_error_requested = 0.01;
+    const std::string table = to_table(report, "out");
+    EXPECT_NE(table.find("  0.0341/0.01  out/b.exr\n"), std::string::npos) << table;
+    EXPECT_NE(table.find("  -  out/a.exr\n"), std::string::npos) << table;
 }
 
 Json images_of(const std::filesystem::path& page) {

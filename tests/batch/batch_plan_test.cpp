@@ -7,8 +7,10 @@
 #include "session/prepared_scene.h"
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -209,7 +211,7 @@ TEST_F(BatchPlanTest, TellsWhatWillFailAndWhatIsNotKnown) {
     const std::string table = to_table(plan);
     for (const char* part :
          {"640x360", "256", "bdpt", "front", "will fail", ": 2 images will fail\n  error: scene.gltf",
-          "\n4 of 4 images to render, \u2265 2:54, 1 unknown; 2 will fail\n"})
+          "\n2 of 4 images to render, \u2265 2:54, 1 unknown; 2 will fail\n"})
         EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
     const json all = json::parse(to_json(plan));
     EXPECT_EQ(all["failing"], 2);
@@ -218,8 +220,83 @@ TEST_F(BatchPlanTest, TellsWhatWillFailAndWhatIsNotKnown) {
     EXPECT_TRUE(all["estimated_seconds"].is_null());
     EXPECT_EQ(all["units"][0]["camera"], "front");
     EXPECT_EQ(all["units"][2]["error"], plan[2].error);
+    EXPECT_EQ(summary(plan), "2 of 4 images to render, \u2265 2:54, 1 unknown: 2 never rendered; 2 will fail");
     plan[0].outline.integrator = "path\nerror: fake";
     EXPECT_NE(to_table(plan).find("path\\x0aerror: fake"), std::string::npos) << to_table(plan);
+}
+
+TEST_F(BatchPlanTest, TellsAWarningOfASceneOnceAndWhatIsReplaced) {
+    BatchPlan plan(3, unit_);
+    EXPECT_EQ(replacements(plan), "");
+    for (PlannedUnit& unit : plan) {
+        unit.reason = "settings changed";
+        unit.warnings = {"warning: sky.exr is missing"};
+        unit.loses_samples = true;
+    }
+    plan[2].loses_pixels = true;
+    EXPECT_EQ(warnings(plan), (folder_ / "scene").string() + ": warning: sky.exr is missing\n");
+    EXPECT_EQ(replacements(plan),
+              "3 finished images will be replaced by ones with fewer samples\n"
+              "1 finished image will be replaced by a smaller one\n");
+    const std::string table = to_table(plan);
+    for (const std::string& lines : {warnings(plan), replacements(plan)})
+        EXPECT_NE(table.find("\n" + lines), std::string::npos) << table;
+    EXPECT_EQ(json::parse(to_json(plan))["units"][0]["warnings"], json::array({"warning: sky.exr is missing"}));
+    plan[0].error = "error: it cannot be rendered";
+    EXPECT_TRUE(replacements(plan).starts_with("2 finished images will be")) << "that one stays";
+}
+
+TEST_F(BatchPlanTest, FindsWhatIsReplacedByFewerSamples) {
+    options_ = {.output = folder_.path(), .no_probe = true};
+    options_.overrides.give("--spp", "12");
+    render();
+    LedgerHistory history(folder_ / "ledger.jsonl");
+    const auto plan_with = [&](const char* option, const char* value) {
+        BatchOptions options = options_;
+        options.overrides.give(option, value);
+        return make_plan({unit_.task}, options, history, [](const std::string&, const BatchPlan&, std::size_t) {});
+    };
+    EXPECT_TRUE(plan_with("--spp", "11").front().loses_samples);
+    EXPECT_FALSE(plan_with("--spp", "48").front().loses_samples);
+    json statistics = json::parse(read_file(folder_ / "box.json"));
+    statistics["size"] = {64, 48};
+    write_file(folder_ / "box.json", statistics.dump());
+    EXPECT_TRUE(plan_with("--size", "64x47").front().loses_pixels);
+    EXPECT_FALSE(plan_with("--size", "64x49").front().loses_pixels);
+}
+
+TEST_F(BatchPlanTest, SaysThatTheTimeOfDenoisingIsNotKnown) {
+    BatchPlan plan(1, unit_);
+    plan[0].reason = "never rendered";
+    plan[0].estimated_seconds = 20.0;
+    plan[0].lacks_denoising = true;
+    EXPECT_EQ(summary(plan), "1 of 1 image to render, about 0:20 without denoising: 1 never rendered");
+}
+
+TEST_F(BatchPlanTest, StatisticsTellWarningsAndAnErrorThatWasNotReached) {
+    const auto read = [&](const json& statistics) {
+        write_file(folder_ / "box.json", statistics.dump());
+        BatchUnit unit;
+        read_statistics(folder_ / "box.json", unit);
+        return unit;
+    };
+    json statistics{{"halt_reason", "samples done"},
+                    {"settings", {{"/error", 0.0}}},
+                    {"estimated_relative_error", 0.03},
+                    {"warnings", {"warning: one", "warning: two"}}};
+    EXPECT_EQ(read(statistics).warnings, (std::vector<std::string>{"warning: one", "warning: two"}));
+    EXPECT_FALSE(read(statistics).relative_error_requested);
+    statistics["settings"]["/error"] = 0.01;
+    const BatchUnit missed = read(statistics);
+    EXPECT_EQ(missed.relative_error, 0.03);
+    EXPECT_EQ(missed.relative_error_requested, 0.01);
+    ASSERT_EQ(missed.warnings.size(), 3u);
+    EXPECT_EQ(missed.warnings.back(), "warning: the error 0.01 was not reached: it is 0.03; samples done");
+    statistics["halt_reason"] = "error reached";
+    EXPECT_EQ(read(statistics).warnings.size(), 2u);
+    statistics["warnings"] = std::vector<std::string>(30, "warning: many");
+    EXPECT_EQ(read(statistics).warnings.size(), 21u);
+    EXPECT_EQ(read(statistics).warnings.back(), "and 10 more");
 }
 
 TEST_F(BatchPlanTest, StatisticsThatAreAPipeAreUnknownAndNothingToWaitFor) {

@@ -83,6 +83,11 @@ TEST(TimeLeft, CountsImagesAtTheSameTimeByTheirShareOfTheThreads) {
     EXPECT_EQ(time.left(), 80.0) << "the longest ends last, whatever is idle";
 }
 
+TEST(FormatCount, TellsOfFailuresOnlyWhereThereAreSome) {
+    EXPECT_EQ(format_count(7, 0, 8), "[7/8] ");
+    EXPECT_EQ(format_count(7, 1, 8), "[7/8, 1 failed] ");
+}
+
 TEST(FormatLine, TellsHowFarTheBatchIs) {
     const BatchProgressLine line{
         .done = 12, .failed = 1, .of = 40, .under_way = {{"box frame 7", "43%"}}, .elapsed = 62.0, .left = 750.0};

@@ -195,6 +195,48 @@ TEST_F(Batch, ADryRunSaysWhatWillFail) {
     EXPECT_EQ(run({"--dry-run", "--only", "a"}).exit_code, 0);
 }
 
+TEST_F(Batch, AMissingTextureLeavesItsTrace) {
+    add_scene("a");
+    (void)animated_scene((folder_ / "scenes/a").string());
+    name_missing_texture(folder_ / "scenes/a");
+    for (const bool probes : {true, false}) {
+        Names dry = arguments({"--dry-run", "--frames", "1:2"});
+        if (probes) std::erase(dry, "--no-probe");
+        const std::string table = run_etendue(dry, work_).out;
+        const std::size_t first = table.find("missing.hdr");
+        ASSERT_NE(first, std::string::npos) << table;
+        EXPECT_EQ(table.find("missing.hdr", table.find('\n', first)), std::string::npos) << "once: " << table;
+    }
+    const ProgramResult result = run({"--quiet", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json unit = json::parse(result.out)["units"][0];
+    EXPECT_NE(unit["warnings"].dump().find("missing.hdr"), std::string::npos) << unit;
+    EXPECT_EQ(json::parse(read_file(work_ / "out/a.json"))["warnings"], unit["warnings"]);
+    const ProgramResult again = run();
+    EXPECT_NE(again.out.find("1 up to date in "), std::string::npos) << again.out;
+    EXPECT_NE(again.out.find("; 1 with warnings; out/index.html\n"), std::string::npos) << again.out;
+}
+
+TEST_F(Batch, SaysWhatItReplacesByFewerSamples) {
+    add_scene("a");
+    EXPECT_EQ(run({"--spp", "4"}).exit_code, 0);
+    const std::string said = "1 finished image will be replaced by one with fewer samples\n";
+    EXPECT_NE(run({"--spp", "2", "--dry-run"}).out.find(said), std::string::npos);
+    EXPECT_NE(run({"--spp", "2"}).err.find(said), std::string::npos);
+    EXPECT_EQ(run({"--spp", "4"}).err.find("will be replaced"), std::string::npos);
+}
+
+TEST_F(Batch, AnErrorThatIsNotReachedLeavesItsTrace) {
+    add_scene("a");
+    const ProgramResult result = run({"--error", "0.000001", "--spp", "8"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json unit = json::parse(read_file(work_ / "out/report.json"))["units"][0];
+    EXPECT_EQ(unit["halt_reason"], "samples done");
+    EXPECT_EQ(unit["relative_error_requested"], 0.000001);
+    EXPECT_NE(unit["warnings"].dump().find("the error 1e-06 was not reached"), std::string::npos) << unit;
+    EXPECT_NE(result.out.find("/1e-06  out/a.exr\n"), std::string::npos) << result.out;
+}
+
 TEST_F(Batch, ARenderJsonAboveScenesIsForNone) {
     add_scene("a");
     write_file(folder_ / "scenes/render.json", R"({"spp": 3})");
@@ -377,8 +419,13 @@ TEST_F(Batch, DenoisesWhatIsNotDenoisedYet) {
     add_scene("a");
     EXPECT_EQ(run({"--denoise"}).exit_code, 0);
     EXPECT_TRUE(fs::exists(work_ / "out/a.denoised.exr"));
-    EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["units"][0]["preview"], "a.denoised.png");
+    const json unit = json::parse(read_file(work_ / "out/report.json"))["units"][0];
+    EXPECT_EQ(unit["preview"], "a.denoised.png");
+    EXPECT_GT(unit["seconds"]["denoise"], 0.0);
+    EXPECT_EQ(events("unit finished").front()["pixels"], 16 * 12);
+    EXPECT_GT(events("unit finished").front()["denoise_seconds"], 0.0);
     EXPECT_NE(run({"--denoise"}).err.find("1 image, all up to date"), std::string::npos);
+    EXPECT_GT(json::parse(read_file(work_ / "out/report.json"))["units"][0]["seconds"]["denoise"], 0.0);
     fs::remove(work_ / "out/a.denoised.exr");
     const auto time = fs::last_write_time(work_ / "out/a.exr");
     EXPECT_NE(run({"--denoise"}).err.find("1 was not denoised"), std::string::npos);
@@ -577,7 +624,10 @@ TEST_F(Batch, AnInvalidSceneIsTriedOnceAndTheOthersAreRendered) {
 
 TEST_F(Batch, TheOtherImagesOfAnInvalidSceneAreSaidNotToBeTried) {
     add_scene("a", R"("camera_": 3,)");
-    EXPECT_EQ(run({"--frames", "1:3"}).exit_code, 1);
+    const ProgramResult result = run({"--frames", "1:3"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.out.find("\n2 images were not tried, as their scene failed\n1 failed in "), std::string::npos)
+        << result.out;
     EXPECT_EQ(count("unit failed"), (std::map<std::string, int>{{"a.0001", 1}}));
     EXPECT_EQ(count("unit not tried"), (std::map<std::string, int>{{"a.0002", 1}, {"a.0003", 1}}));
     const json end = events("batch finished").front();

@@ -484,7 +484,8 @@ TEST_F(CommandLine, PyramidsThatCannotBeMadeAreRefusedBeforeRendering) {
 
 TEST_F(CommandLine, WhatCannotBeWrittenEndsWithOneAtOnce) {
     fs::create_directories(folder_ / "directory.exr");
-    for (const std::string& output : {std::string("no/such/folder/image.exr"), (folder_ / "directory.exr").string()}) {
+    std::ofstream(folder_ / "file") << "no directory";
+    for (const std::string& output : {(folder_ / "file/image.exr").string(), (folder_ / "directory.exr").string()}) {
         const ProgramResult result = run({"render", scene("box"), "--spp", "1000000", "-o", output});
         EXPECT_EQ(result.exit_code, 1);
         EXPECT_NE(result.err.find(output), std::string::npos) << result.err;

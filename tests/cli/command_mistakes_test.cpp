@@ -48,6 +48,25 @@ TEST_F(CommandMistakes, SuggestTheOptionThatWasMeant) {
     expect_usage_error({"render", "scenes/box", "--zzzzzzzzzzzzzzz=3"}, {"'--zzzzzzzzzzzzzzz'", "etendue help render"});
     expect_usage_error({"--versio"}, {"there is no option '--versio'; did you mean '--version'?"});
     expect_usage_error({"render", "scenes/box", "other"}, {"'other' is one word too many for 'render'"});
+    expect_usage_error({"render", "scenes/box", "--out", "x.exr"}, {"no option '--out'", "did you mean '--output'?"});
+}
+
+TEST_F(CommandMistakes, SuggestTheWordThatWasMeant) {
+    expect_usage_error({"render", "scenes/box", "--integrator", "bdtp"}, {"bdtp not in {", "did you mean 'bdpt'?"});
+    expect_usage_error({"profile", "scenes/box", "-o", "out", "--integrators", "path,bpdt"}, {"did you mean 'bdpt'?"});
+    expect_usage_error({"profile", "scenes/box", "-o", "out", "--integrators", "path", "bdpt"},
+                       {"'bdpt' is one word too many", "values of --integrators: separate them by commas"});
+    expect_usage_error({"profile", "scenes/box", "-o", "out", "--threads", "1", "2"}, {"--threads: separate them by"});
+    EXPECT_EQ(run({"view", "x.exr", "-o", "x.png", "--bits", "12"}).err.find("did you mean"), std::string::npos);
+}
+
+TEST_F(CommandMistakes, AMissingDirectoryIsMade) {
+    EXPECT_EQ(run({"render", "scenes/box", "-o", "new/folder/a.exr", "--quiet"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work_ / "new/folder/a.json"));
+    EXPECT_EQ(run({"render", "scenes/box", "-o", "parts/a.partial", "--samples", "0:1", "--quiet"}).exit_code, 0);
+    EXPECT_EQ(run({"view", "new/folder/a.exr", "-o", "views/a.png"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work_ / "views/a.png"));
+    expect_refused({"render", "scenes/box", "-o", "x.exr/a.exr"}, 1, {"there is no directory ", "/x.exr"});
 }
 
 TEST_F(CommandMistakes, SayWhatAnOptionTakes) {

@@ -328,6 +328,9 @@ TEST_F(Continuation, ASinglePixelIsRenderedToItsErrorToo) {
     const ProgramResult result = run(render(200, "one.exr", {"--crop", "28,15,29,16", "--error", "1e-6", "--json"}));
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(json::parse(result.out)["spp"]["done"], 200) << "an error that is out of reach takes all samples";
+    EXPECT_NE(result.err.find(" in place of 1e-06: all 200 samples were taken first; give a larger --spp"),
+              std::string::npos)
+        << result.err;
 }
 
 TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {

@@ -87,7 +87,7 @@ TEST_F(FirstPictures, PngGetsTheExposureThatItsImageAsksFor) {
     write_file(work_ / "a/render.json", std::string(settings).replace(settings.find("\"environment\": {}"), 17,
                                                                       R"("environment": {"scale": 6})"));
     const std::string said = render({"a", "--float", "-o", "a.exr"});
-    EXPECT_TRUE(contains(said, "a.png: exposure -2.41 stops (--exposure): half of it")) << said;
+    EXPECT_TRUE(contains(said, "a.png: exposure -2.41 stops (chosen; --exposure sets it): half of it")) << said;
     EXPECT_NEAR(exposure_of("a").at("stops").get<double>(), std::log2(1.5 / 8.0), 0.011)
         << "the triangle is the brightest, at 8";
     EXPECT_TRUE(exposure_of("a").at("chosen").is_string());

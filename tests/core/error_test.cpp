@@ -2,6 +2,8 @@
 
 #include <array>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +52,27 @@ TEST(ProblemList, AnErrorAmongTheDroppedStillCounts) {
     EXPECT_TRUE(problems.has_errors());
 }
 
+TEST(ProblemList, KeepsBeginningAndEndOfWhatIsLong) {
+    ProblemList problems;
+    std::string umlauts;
+    while (umlauts.size() < 100'000) umlauts += "\u00fc";
+    problems.error({"f", "/a" + umlauts + "/b"}, "first " + umlauts + " last");
+    const Problem& problem = problems.all()[0];
+    EXPECT_LE(problem.where.pointer.size(), ProblemList::kMaxPointer);
+    EXPECT_LE(problem.message.size(), ProblemList::kMaxMessage);
+    EXPECT_TRUE(problem.where.pointer.starts_with("/a") && problem.where.pointer.ends_with("\u00fc/b"));
+    EXPECT_TRUE(problem.message.starts_with("first ") && problem.message.ends_with("\u00fc last"));
+    EXPECT_NE(problem.message.find("\u00fc ... \u00fc"), std::string::npos) << "whole characters";
+}
+
+TEST(ProblemList, IsFullWhenMoreAreOnlyCounted) {
+    ProblemList problems;
+    for (std::size_t i = 1; i < ProblemList::kMaxProblems; ++i) problems.note({}, "n");
+    EXPECT_FALSE(problems.is_full());
+    problems.note({}, "n");
+    EXPECT_TRUE(problems.is_full());
+}
+
 TEST(SceneError, ListsTheErrorsOnly) {
     ProblemList problems;
     problems.warning({}, "harmless");
@@ -75,6 +98,26 @@ TEST(NearestName, SuggestsNothingFarOff) {
     EXPECT_EQ(nearest_name("", kKnown), "");
     EXPECT_EQ(nearest_name(std::string(100'000, 'x'), kKnown), "") << "and takes no quadratic time";
     EXPECT_EQ(nearest_name("anything", {}), "");
+}
+
+TEST(NearestName, LooksAtSoManyNamesOnly) {
+    const std::string unlike(60, 'x');
+    std::vector<std::string_view> known(100'000, unlike);
+    const std::string name(60, 'y');
+    known.push_back(name);
+    EXPECT_EQ(nearest_name(name, known), "");
+    std::vector<std::string_view> others(100'000, "a name of another length");
+    others.push_back(name);
+    EXPECT_EQ(nearest_name(name, others), name) << "lengths alone cost nothing";
+}
+
+TEST(NameHint, ShortensLongNames) {
+    const std::string longer(50'000, 'n');
+    const std::vector<std::string_view> known(30, longer);
+    const std::string hint = name_hint("name", known);
+    EXPECT_LT(hint.size(), 2'000u);
+    EXPECT_TRUE(hint.starts_with("there are '" + std::string(64, 'n') + "...', '")) << hint;
+    EXPECT_TRUE(hint.ends_with(" and 10 more")) << hint;
 }
 
 }  // namespace

@@ -314,8 +314,8 @@ TEST(ReadImage, ALackOfMemoryIsNoFaultOfTheImage) {
     constexpr std::size_t kValues = std::size_t{kWidth} * kHeight * 3;
     const auto png = write_reference(folder / "a.png", {kWidth, kHeight, 3, OIIO::TypeDesc::UINT8},
                                      std::vector<std::uint8_t>(kValues));
-    const auto exr = write_reference(folder / "a.exr", {kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT},
-                                     std::vector<float>(kValues));
+    const auto exr =
+        write_reference(folder / "a.exr", {kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT}, std::vector<float>(kValues));
     (void)read_image_float(png);
     (void)read_image_levels(exr);
     const LayeredImage layers = read_layers(exr);

@@ -1,5 +1,6 @@
 #include "light/mesh_light.h"
 
+#include "core/position_error.h"
 #include "light/light_checks.h"
 #include "support/chi2.h"
 #include "support/t_test.h"
@@ -173,6 +174,26 @@ TEST(MeshLight, DirectionsToRectanglesHaveTheStatedDensity) {
         }
         EXPECT_EQ(most / least < 1.001f, is_by_solid_angle) << point;
     }
+}
+
+// In an odd plane, points of a lamp lie beside it by rounding, and must not see it as half a sphere.
+TEST(MeshLight, RectanglesDoNotLightThemselves) {
+    const Vec3f x = normalize(Vec3f(1.0f, 0.3f, 0.2f)) * 1.5f;
+    const Vec3f normal = normalize(cross(x, Vec3f(0.2f, 1.0f, 0.4f)));
+    const Vec3f y = normalize(cross(normal, x)) * 0.7f;
+    const Vec3f center(5.0f, -3.0f, 8.0f);
+    const MeshLight light(quad_triangles(center, x, y), Rgb(1.0f), Rgb(1.0f), true, false, true,
+                          position_error({8.0f, 6.0f, 10.0f}));
+    constexpr int kSamples = 20'000;
+    double received = 0.0;
+    Random random(9);
+    for (int i = 0; i < kSamples; ++i) {
+        const Vec3f point = center + x * (1.8f * random.next() - 0.9f) + y * (1.8f * random.next() - 0.9f);
+        const LightSample s = light.sample(point, random.next_2d(), random.next_2d());
+        if (s.pdf_solid_angle > 0.0f)
+            received += static_cast<double>(abs_dot(s.wi, normal) / s.pdf_solid_angle) / kSamples;
+    }
+    EXPECT_LT(received, 1e-4);
 }
 
 TEST(MeshLight, SamplesStateTheDensityOfTheirHit) {

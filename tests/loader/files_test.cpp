@@ -71,6 +71,13 @@ TEST(ResolveUri, SaysWhatMayHaveBeenMeant) {
                   .find("encoded another way"),
               std::string::npos);
     EXPECT_EQ(refusal(dir.path(), "unlike-anything.bin").find("did you mean"), std::string::npos);
+    dir.write("Box.gltf", "x");
+    dir.write("Floor.jpg", "x");
+    EXPECT_EQ(refusal(dir.path(), "Box0.bin").find("did you mean"), std::string::npos) << "the scene is no buffer";
+    EXPECT_NE(refusal(dir.path(), "Box0.gltf").find("did you mean 'Box.gltf'"), std::string::npos);
+    EXPECT_NE(refusal(dir.path(), "Floor.png").find("did you mean 'Floor.jpg'"), std::string::npos);
+    dir.write("Box.bin", "x");
+    EXPECT_NE(refusal(dir.path(), "Box0.bin").find("did you mean 'Box.bin'"), std::string::npos);
 }
 
 TEST(ResolveUri, RefusesWhatIsNoFileInside) {

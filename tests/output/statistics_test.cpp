@@ -53,6 +53,7 @@ RenderStatistics make_statistics() {
     s.texture_cache_budget = 9000;
     s.failed_texture_lookups = 6;
     s.missing_textures = 7;
+    s.warnings = {"warning: box.gltf#/images/0: it is missing"};
     s.camera = "front";
     s.integrator_choice = "'path', since nothing else is needed";
     s.dropped_samples = 3;
@@ -111,7 +112,7 @@ TEST(StatisticsJson, HasEveryField) {
         "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "bvh_build_seconds": 0.5,
         "bvh_triangles_per_second": 72.0, "triangles": 36, "instances": 1, "lights": 2,
         "textures": {"count": 4, "held": "cached", "bytes": 5678, "cache_budget_bytes": 9000, "failed_lookups": 6},
-        "missing_textures": 7,
+        "missing_textures": 7, "warnings": ["warning: box.gltf#/images/0: it is missing"],
         "dropped_samples": {"count": 3, "first": [{"x": 1, "y": 2, "sample": 3}, {"x": 4, "y": 5, "sample": 6}]},
         "clamp_indirect": {"limit": 0.5, "removed_share": 0.25},
         "robust": {"estimate": "mon:5", "least_buckets": 4, "removed_share": 0.125},

@@ -61,6 +61,13 @@ TEST(ImageDescription, RefusesWhatTheFilmHasNot) {
     EXPECT_NE(refusal(removed), "");
 }
 
+TEST(ImageDescription, KeepsTheWarnings) {
+    ImageDescription description;
+    description.statistics.warnings = {"warning: one", "warning: two"};
+    EXPECT_EQ(parse_description(to_text(description), kLayout, "a.partial").statistics.warnings,
+              description.statistics.warnings);
+}
+
 TEST(ImageDescription, RefusesNamesThatLeadElsewhere) {
     for (const char* name : {"../../etc/passwd", "a/b", "", ".", "a b"})
         EXPECT_NE(refusal(description_of({name, "RGB", AovKind::Layer, 0})), "") << name;

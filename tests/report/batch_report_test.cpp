@@ -72,6 +72,26 @@ TEST(BatchTotals, LeaveOutWhatWasRenderedBefore) {
     EXPECT_EQ(sum.rays, 140u);
 }
 
+TEST(BatchTotals, CountWarningsWhatWasNotTriedAndTheTimeOfDenoising) {
+    BatchReport report = small_report();
+    report.units[0].seconds->denoise = 4.0;
+    report.units[2].seconds->denoise = 8.0;
+    report.units[2].warnings = {"warning: one", "warning: two"};
+    report.units.push_back({.name = "e", .error = std::string(kNotTried)});
+    report.units.push_back({.name = "f"});
+    const BatchTotals sum = totals(report);
+    EXPECT_EQ(sum.seconds.denoise, 4.0) << "the other one was made before";
+    EXPECT_EQ(sum.seconds.total(), 71.0);
+    EXPECT_EQ(sum.with_warnings, 1u);
+    EXPECT_EQ(sum.not_started, 2u);
+    EXPECT_EQ(sum.not_tried, 1u);
+    const Json json = Json::parse(to_json(report));
+    EXPECT_EQ(json["totals"]["with_warnings"], 1);
+    EXPECT_EQ(json["totals"]["not_tried"], 1);
+    EXPECT_EQ(json["units"][0]["seconds"]["denoise"], 4.0);
+    EXPECT_EQ(json["units"][2]["warnings"], Json({"warning: one", "warning: two"}));
+}
+
 TEST(BatchTotals, EveryOutcomeHasItsCount) {
     BatchReport report;
     for (const UnitOutcome outcome :
@@ -99,6 +119,9 @@ TEST(BatchJson, HoldsWhatIsKnown) {
     EXPECT_EQ(failed["outcome"], "failed");
     EXPECT_EQ(failed["error"], "no such file");
     EXPECT_EQ(failed["log"], Json({"one", "two"}));
+    EXPECT_EQ(failed["warnings"], Json::array());
+    EXPECT_TRUE(failed.at("relative_error").is_null());
+    EXPECT_TRUE(failed.at("relative_error_requested").is_null());
     for (const char* key : {"frame", "variant", "camera", "fraction", "seconds_left", "spp_requested", "reason",
                             "signal", "host", "width", "height", "spp", "integrator", "halt_reason", "seconds",
                             "estimated_seconds", "rays", "rays_per_second", "peak_memory_bytes"})

@@ -285,17 +285,45 @@ TEST(ProfileAdvice, TellsWaitingFromWhatOthersTook) {
     ProfileRun run = made_up_profile().runs[0];
     run.instrumented_cpu_seconds = 1.3;
     EXPECT_EQ(advice_of(run).find("no tile"), std::string::npos) << "one thread waits for nobody: " << advice_of(run);
-    EXPECT_NE(busy_machine(run).find("took 48.0% of the threads' time"), std::string::npos) << busy_machine(run);
+    EXPECT_NE(busy_machine({run}).find("took 48.0% of the threads' time"), std::string::npos) << busy_machine({run});
     run.threads = 2;
     run.tiles[2].cpu_seconds = 0.4;
     run.instrumented_cpu_seconds = 1.1;
     // 3.5 s without a tile would have been two thirds of that; 0.1 s of them was work.
     EXPECT_NE(advice_of(run).find("threads have no tile for 46.7% of their time"), std::string::npos) << advice_of(run);
-    EXPECT_NE(busy_machine(run).find("took 33.3%"), std::string::npos) << busy_machine(run);
+    EXPECT_NE(busy_machine({run}).find("took 33.3%"), std::string::npos) << busy_machine({run});
+    run.parallel_efficiency = 0.5;
+    run.load_imbalance = 0.5;
+    EXPECT_EQ(costs_of(run).find("threads do the work"), std::string::npos) << "others did: " << costs_of(run);
+    EXPECT_EQ(costs_of(run).find("busiest thread"), std::string::npos) << costs_of(run);
     for (TileReport& tile : run.tiles) tile.cpu_seconds = tile.end - tile.start;
     run.instrumented_cpu_seconds = 1.6;
-    EXPECT_EQ(busy_machine(run), "") << "all the rest is waiting";
-    EXPECT_EQ(busy_machine(ProfileRun{}), "") << "nothing is known";
+    EXPECT_EQ(busy_machine({run}), "") << "all the rest is waiting";
+    EXPECT_NE(costs_of(run).find("2 threads do the work of 1.0"), std::string::npos) << costs_of(run);
+    EXPECT_EQ(busy_machine({ProfileRun{}}), "") << "nothing is known";
+}
+
+TEST(ProfileTable, BeginsWithWhatOthersTook) {
+    ProfileReport report = made_up_profile();
+    EXPECT_TRUE(Json::parse(to_json(report))["busy"].is_null());
+    for (ProfileRun& run : report.runs) run.instrumented_cpu_seconds = 0.9;
+    const std::string busy = busy_machine(report.runs);
+    EXPECT_TRUE(busy.starts_with("path, threads: 1; path, threads: 2: other programs")) << busy;
+    report.notes.push_back(busy);
+    const std::string table = to_table(report);
+    EXPECT_TRUE(table.starts_with("Note: path, threads: 1; path")) << table;
+    EXPECT_EQ(table.find("other programs"), table.rfind("other programs")) << "once";
+    EXPECT_NE(table.find("\nNote: made up\n"), std::string::npos) << table;
+    EXPECT_EQ(Json::parse(to_json(report))["busy"], busy);
+}
+
+TEST(ProfileTable, CountsPathsThatReachTheLimit) {
+    ProfileReport report = made_up_profile();
+    report.max_depth = 3;
+    for (ProfileRun& run : report.runs) run.longest.front().vertices = 4;
+    const std::string table = to_table(report);
+    EXPECT_NE(table.find("eye paths that reached the limit of 3 rays: 100\n"), std::string::npos) << table;
+    EXPECT_EQ(table.find("4 vertices at"), std::string::npos) << table;
 }
 
 TEST(ProfileAdvice, WarnsWhereRepetitionsDisagree) {

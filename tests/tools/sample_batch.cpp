@@ -90,6 +90,7 @@ void fill_statistics(BatchUnit& unit, int index) {
     unit.peak_memory_bytes = (700ull + 90 * static_cast<unsigned>(index % 17)) << 20;
     unit.host = index % 5 == 4 ? "render02" : "render01";
     unit.attempts = unit.outcome == UnitOutcome::UpToDate ? 0 : 1;
+    if (index % 6 == 1) unit.warnings = {"warning: <b>a texture</b> is missing"};
 }
 
 void fill_running(BatchUnit& unit) {

@@ -38,7 +38,7 @@ EdgebreakerCounts read_counts(draco::DecoderBuffer buffer) {
 }
 
 /// Returns the bytes that Draco takes for connectivity: tables of corners, and one more for each attribute.
-std::uint64_t bytes_of(const EdgebreakerCounts& counts) {
+std::uint64_t bytes_of_connectivity(const EdgebreakerCounts& counts) {
     constexpr std::uint64_t kOfFace = 44, kOfFaceAndAttribute = 16, kOfVertex = 16, kOfVertexAndAttribute = 8;
     return counts.faces * (kOfFace + kOfFaceAndAttribute * counts.attributes) +
            (std::uint64_t{counts.vertices} + counts.splits) * (kOfVertex + kOfVertexAndAttribute * counts.attributes);
@@ -69,7 +69,7 @@ class AskingDecoder final : public Base {
     bool DecodeConnectivity() override {
         // Lists of corners have at least a byte for each, which the decoder checks.
         if constexpr (std::is_same_v<Base, draco::MeshEdgebreakerDecoder>)
-            if (!ask(bytes_of(read_counts(*this->buffer())))) return false;
+            if (!ask(bytes_of_connectivity(read_counts(*this->buffer())))) return false;
         return Base::DecodeConnectivity();
     }
     bool DecodeAllAttributes() override {

@@ -112,6 +112,7 @@ AccessorReader::AccessorReader(const GltfDocument& document, ProblemList& proble
     : document_(document),
       problems_(problems),
       budget_(document.budget),
+      work_(document.budget),
       is_quantized_(std::ranges::find(document.extensions_used, "KHR_mesh_quantization") !=
                     document.extensions_used.end()) {}
 
@@ -200,10 +201,22 @@ bool AccessorReader::allocate(std::uint64_t count, std::uint64_t bytes, const So
 }
 
 bool AccessorReader::has_room(std::uint64_t bytes, const SourceLocation& where) {
-    if (budget_.holds(bytes)) return true;
+    return budget_.holds(bytes) || refuse(DecodeBudget::kExceeded, where);
+}
+
+bool AccessorReader::allow_work(std::uint64_t steps, const SourceLocation& where) {
+    constexpr std::uint64_t kStepsPerByte = 4;
+    return work_.take(steps / kStepsPerByte) || refuse(DecodeBudget::kTooMuchWork, where);
+}
+
+bool AccessorReader::refuse(const char* message, const SourceLocation& where) {
     // The file is refused; whatever else would take too much is no news.
-    if (!std::exchange(is_exhausted_, true)) problems_.error(where, DecodeBudget::kExceeded);
+    if (!std::exchange(is_exhausted_, true)) problems_.error(where, message);
     return false;
+}
+
+void AccessorReader::forget() {
+    budget_ = document_.budget;
 }
 
 template <typename Out>
@@ -235,6 +248,11 @@ bool AccessorReader::read_sparse(const tinygltf::Accessor& accessor, std::vector
     const auto& sparse = accessor.sparse;
     const std::size_t components = as_index(component_count(accessor));
     const std::size_t count = as_index(sparse.count);
+    if (count > accessor.count) {
+        problems_.error(where, fmt::format("{} sparse values are more than the {} elements of the accessor", count,
+                                           accessor.count));
+        return false;
+    }
     const std::optional<Elements> targets =
         elements(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count,
                  component_size(sparse.indices.componentType), where);

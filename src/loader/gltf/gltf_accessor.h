@@ -64,12 +64,22 @@ class AccessorReader {
     [[nodiscard]] bool allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where);
     /// True if `bytes` may still be decoded, as for a while only; false with an error like that of `allocate`.
     [[nodiscard]] bool has_room(std::uint64_t bytes, const SourceLocation& where);
+    /// Takes about as many `steps` of arithmetic from what may be computed: 4 for each byte that a new reader may
+    /// decode. False with an error like that of `allocate` if that is too much.
+    [[nodiscard]] bool allow_work(std::uint64_t steps, const SourceLocation& where);
+    /// Returns whether more was asked for than is allowed.
+    [[nodiscard]] bool is_exhausted() const { return is_exhausted_; }
+    /// Makes room again for all that was decoded and is gone; work stays done.
+    void forget();
 
     /// The bytes of a buffer view, at most as many as may still be decoded; the same on errors.
     [[nodiscard]] std::optional<std::span<const unsigned char>> copyable_view(int buffer_view,
                                                                               const SourceLocation& where);
 
   private:
+    /// Returns false, with the error `message` if it is the first one of its kind.
+    bool refuse(const char* message, const SourceLocation& where);
+
     /// Evenly spaced elements inside a buffer view.
     struct Elements {
         const unsigned char* first = nullptr;
@@ -91,7 +101,8 @@ class AccessorReader {
     const GltfDocument& document_;
     ProblemList& problems_;
     DecodeBudget budget_;
-    bool is_exhausted_ = false;               ///< more was asked for than may be decoded, and that was reported
+    DecodeBudget work_;
+    bool is_exhausted_ = false;               ///< more was asked for than is allowed, and that was reported
     std::set<std::size_t> reported_buffers_;  ///< absent buffers that were reported
     bool is_quantized_;                       ///< the file uses KHR_mesh_quantization
 };

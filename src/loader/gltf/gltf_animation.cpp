@@ -165,20 +165,24 @@ bool wants_none(const RenderSettings& settings) {
 std::vector<const GltfAnimation*> find_named(const GltfDocument& document, const RenderSettings& settings,
                                              ProblemList& problems) {
     std::vector<std::string_view> names{kNoAnimation};
-    for (const GltfAnimation& animation : document.animations) names.push_back(animation.name);
+    std::multimap<std::string_view, const GltfAnimation*> by_name;
+    for (const GltfAnimation& animation : document.animations) {
+        names.push_back(animation.name);
+        by_name.emplace(animation.name, &animation);
+    }
     std::vector<const GltfAnimation*> found;
+    std::set<std::string_view> asked;
     for (const std::string& name : settings.animations) {
-        const std::size_t before = found.size();
-        for (const GltfAnimation& animation : document.animations)
-            if (animation.name == name && std::ranges::find(found, &animation) == found.end())
-                found.push_back(&animation);
-        const bool is_repeated = std::ranges::find(found, name, &GltfAnimation::name) != found.end();
-        if (found.size() > before || is_repeated) continue;
+        if (!asked.insert(name).second && by_name.contains(name)) continue;
+        const auto [begin, end] = by_name.equal_range(name);
+        for (auto entry = begin; entry != end; ++entry) found.push_back(entry->second);
+        if (begin != end) continue;
         if (name == kNoAnimation)
             problems.error(settings.at("/animation"), "'none' stands alone: it asks for no animation");
         else
             problems.error(document.at("/animations"),
-                           fmt::format("there is no animation '{}'; {}", shown(name), name_hint(name, names)));
+                           fmt::format("there is no animation '{}'; {}", shown(name),
+                                       problems.is_full() ? std::string() : name_hint(name, names)));
     }
     return found;
 }

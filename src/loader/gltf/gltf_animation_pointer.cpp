@@ -133,9 +133,10 @@ bool write_to_light(const std::vector<std::string>& tokens, const std::vector<do
 }
 
 /// Weights of the morph targets of `mesh`: all if `tokens`, which lead on from "weights", are none, else one. False if
-/// it has no such targets, or the value does not fit.
-bool write_weights(std::span<const std::string> tokens, const std::vector<double>& numbers, const tinygltf::Mesh& mesh,
-                   std::vector<double>& weights) {
+/// it has no such targets, or the value does not fit. Throws SceneError if many weights are more than `budget` holds.
+bool write_weights(std::span<const std::string> tokens, const PointerValue& value, const tinygltf::Mesh& mesh,
+                   std::vector<double>& weights, DecodeBudget& budget) {
+    const std::vector<double>& numbers = value.numbers;
     const std::size_t targets = mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
     if (tokens.empty()) {
         if (numbers.size() != targets || targets == 0) return false;
@@ -144,6 +145,8 @@ bool write_weights(std::span<const std::string> tokens, const std::vector<double
     }
     const std::optional<std::size_t> target = to_index(tokens.front());
     if (tokens.size() != 1 || numbers.size() != 1 || !target || *target >= targets) return false;
+    if (weights.size() < targets && !budget.take(targets * sizeof(double)))
+        throw SceneError(value.where, DecodeBudget::kExceeded);
     if (weights.empty()) weights = mesh.weights;
     weights.resize(targets);
     weights[*target] = numbers.front();
@@ -152,7 +155,8 @@ bool write_weights(std::span<const std::string> tokens, const std::vector<double
 
 /// Values that are not in the JSON that is read again: measured lamps, environments, whether nodes are visible, and
 /// weights of morph targets. False if the pointer leads to none of these, or the value does not fit.
-bool write_to_model(const PointerValue& value, tinygltf::Model& model) {
+bool write_to_model(const PointerValue& value, GltfDocument& document) {
+    tinygltf::Model& model = document.model;
     const std::vector<std::string> tokens = split_pointer(value.pointer);
     if (tinygltf::Value* light = find_light(tokens, model)) return write_to_light(tokens, value.numbers, *light);
     const std::optional<std::size_t> index = tokens.size() > 2 ? to_index(tokens[1]) : std::nullopt;
@@ -161,12 +165,13 @@ bool write_to_model(const PointerValue& value, tinygltf::Model& model) {
     const auto rest = std::span(tokens).subspan(3);
     if (tokens[0] == "meshes" && *index < model.meshes.size() && is_weight) {
         tinygltf::Mesh& mesh = model.meshes[*index];
-        return write_weights(rest, value.numbers, mesh, mesh.weights);
+        return write_weights(rest, value, mesh, mesh.weights, document.budget);
     }
     if (tokens[0] != "nodes" || *index >= model.nodes.size()) return false;
     tinygltf::Node& node = model.nodes[*index];
     if (is_weight && node.mesh >= 0)
-        return write_weights(rest, value.numbers, model.meshes[static_cast<std::size_t>(node.mesh)], node.weights);
+        return write_weights(rest, value, model.meshes[static_cast<std::size_t>(node.mesh)], node.weights,
+                             document.budget);
     const bool is_visibility = tokens[2] == "extensions" && rest.size() == 2 && rest[0] == kVisibility;
     if (!is_visibility || rest[1] != "visible" || value.numbers.size() != 1) return false;
     node.extensions[kVisibility] =
@@ -213,7 +218,7 @@ void apply_pointers(std::span<const PointerValue> values, GltfDocument& document
     if (values.empty()) return;
     Json json = parse_json(document.animatable, document.at(""));
     for (const PointerValue& value : values)
-        if (!write_to_model(value, document.model) && !write_value(value, json))
+        if (!write_to_model(value, document) && !write_value(value, json))
             problems.warning(value.where, fmt::format("'{}' cannot be animated with {} numbers; the channel is ignored",
                                                       shown(value.pointer), value.numbers.size()));
     ProblemList found;

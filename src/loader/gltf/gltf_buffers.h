@@ -29,6 +29,9 @@ class DecodeBudget {
     static constexpr const char* kExceeded =
         "the file refers to the same things so often that it would take too much memory: more than 1 GiB and 64 times "
         "its size";
+    /// Is the message for a file that asks for more arithmetic than is in proportion to its budget.
+    static constexpr const char* kTooMuchWork =
+        "the file deforms the same things so often that it would take too long to load";
 
     /// `bytes` are those of the file and of its buffers, as they were read.
     explicit DecodeBudget(std::uint64_t bytes);

@@ -46,11 +46,16 @@ bool MeshDeformation::has_flat_triangles() const {
     return std::ranges::any_of(primitives, &PrimitiveDeformation::has_flat_triangles);
 }
 
+std::uint32_t PrimitiveDeformation::largest_joint() const {
+    std::uint32_t largest = 0;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        if (weights[i] > 0.0f) largest = std::max(largest, joints[i]);
+    return largest;
+}
+
 std::uint32_t MeshDeformation::largest_joint() const {
     std::uint32_t largest = 0;
-    for (const PrimitiveDeformation& p : primitives)
-        for (std::size_t i = 0; i < p.joints.size(); ++i)
-            if (p.weights[i] > 0.0f) largest = std::max(largest, p.joints[i]);
+    for (const PrimitiveDeformation& p : primitives) largest = std::max(largest, p.largest_joint());
     return largest;
 }
 

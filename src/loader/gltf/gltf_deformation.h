@@ -25,6 +25,9 @@ struct PrimitiveDeformation {
     std::vector<std::uint32_t> joints;  ///< `influences` a vertex: indices into the skin's joints
     std::vector<float> weights;         ///< weights of `joints`, >= 0
     bool has_flat_triangles = false;    ///< some triangles have no area before they are deformed
+
+    /// Returns the largest index of a joint that moves a vertex; 0 if there is none.
+    [[nodiscard]] std::uint32_t largest_joint() const;
 };
 
 /// One for each primitive of a mesh.

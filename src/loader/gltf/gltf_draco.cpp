@@ -56,9 +56,15 @@ std::optional<DracoMesh> decode_draco(const GltfDocument& document, const tinygl
     const auto bytes = accessors.copyable_view(integer_or(extension, "bufferView", -1), where);
     if (!bytes) return std::nullopt;
     std::unique_ptr<draco::Mesh> mesh;
+    std::uint64_t asked = 0;
     try {
-        mesh = decode_draco_mesh(*bytes, [&](std::uint64_t more) { return accessors.has_room(more, where); });
+        mesh = decode_draco_mesh(*bytes, [&](std::uint64_t more) {
+            asked += more;
+            return accessors.has_room(more, where);
+        });
     } catch (const IoError& error) {
+        // What fails is charged, so that primitives cannot have it tried over and over.
+        static_cast<void>(accessors.allocate(asked, 1, where));
         return fail(fmt::format("the Draco data cannot be decoded: {}", error.what()));
     }
     if (!mesh) return std::nullopt;

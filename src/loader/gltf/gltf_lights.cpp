@@ -46,6 +46,17 @@ bool LightReader::has_light(const tinygltf::Node& node) {
            find_extension(node.extensions, kMeasured) != nullptr;
 }
 
+std::size_t LightReader::longest_name(const GltfDocument& document) {
+    std::size_t longest = 0;
+    for (const tinygltf::Light& light : document.model.lights) longest = std::max(longest, light.name.size());
+    const tinygltf::Value* measured = find_extension(document.model.extensions, kMeasured);
+    if (measured == nullptr) return longest;
+    for_each_element(*measured, "lights", [&](const tinygltf::Value& light) {
+        longest = std::max(longest, text_or_empty(light, "name").size());
+    });
+    return longest;
+}
+
 void LightReader::place(const tinygltf::Node& node, const Mat4f& to_world, const SourceLocation& where) {
     if (const tinygltf::Value* light = find_extension(node.extensions, kPunctual))
         place_punctual(node, static_cast<std::size_t>(integer_or(*light, "light", 0)), to_world);

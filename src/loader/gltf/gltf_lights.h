@@ -18,6 +18,8 @@ class LightReader {
 
     /// True if `node` has a light, or two.
     [[nodiscard]] static bool has_light(const tinygltf::Node& node);
+    /// Returns the bytes of the longest name that a light or a profile of the file has.
+    [[nodiscard]] static std::size_t longest_name(const GltfDocument& document);
     /// Adds the lights of `node`, which lies at `to_world` (a rigid transform) and at `where` in the file.
     void place(const tinygltf::Node& node, const Mat4f& to_world, const SourceLocation& where);
 

@@ -29,15 +29,16 @@ namespace {
 /// them.
 void check_other_animations(const GltfDocument& document, std::span<const GltfAnimation* const> shown,
                             ProblemList& problems) {
+    ProblemList found;
+    AccessorReader accessors(document, found);
     for (const GltfAnimation& animation : document.animations) {
+        if (accessors.is_exhausted()) break;  // which is reported
         if (std::ranges::find(shown, &animation) != shown.end()) continue;
-        ProblemList found;
-        AccessorReader accessors(document, found);
         const AnimationSampler sampler(document, std::array{&animation}, accessors, found);
-        for (Problem problem : found.all()) {
-            problem.severity = std::min(problem.severity, Severity::Warning);
-            problems.add(std::move(problem));
-        }
+    }
+    for (Problem problem : found.all()) {
+        problem.severity = std::min(problem.severity, Severity::Warning);
+        problems.add(std::move(problem));
     }
 }
 

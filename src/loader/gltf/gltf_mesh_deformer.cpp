@@ -33,6 +33,18 @@ void thin_out(std::vector<VertexStep>& steps) {
     steps.resize(kept);
 }
 
+/// Returns about how many steps of arithmetic it takes to pose a primitive once, besides those for each vertex.
+std::uint64_t work_of(const PrimitiveDeformation& deformation, std::span<const double> weights, bool is_skinned) {
+    constexpr std::uint64_t kStepsOfInfluence = 8;
+    std::uint64_t steps = is_skinned ? kStepsOfInfluence * deformation.joints.size() : 0;
+    for (std::size_t i = 0; i < std::min(weights.size(), deformation.targets.size()); ++i) {
+        const MorphTarget& target = deformation.targets[i];
+        if (static_cast<float>(weights[i]) != 0.0f)
+            steps += target.positions.size() + target.normals.size() + target.tangents.size();
+    }
+    return steps;
+}
+
 }  // namespace
 
 MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& where) {
@@ -59,12 +71,11 @@ MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& 
         }
     }
     if (!allocate_copy(scene_.meshes[index], where)) return unchanged;
-    const bool moves =
-        (is_morphed && weights_change) ||
-        (binding && std::ranges::any_of(binding->joints, [&](int j) { return !nodes_.motion(j).empty(); }));
+    const bool moves = (is_morphed && weights_change) || (binding && binding->moves);
 
     MeshDesc mesh{scene_.meshes[index].name, {}, scene_.meshes[index].location};
     for (std::size_t p = 0; p < deformation.primitives.size(); ++p) {
+        if (!accessors_.allow_work(work_of(deformation.primitives[p], weights, is_skinned), where)) return unchanged;
         PrimitiveDesc primitive = scene_.meshes[index].primitives[p];
         if (moves) primitive.motion = move(primitive, deformation.primitives[p], node_index, binding, where);
         morph(primitive, deformation.primitives[p], weights);
@@ -101,13 +112,17 @@ std::vector<VertexStep> MeshDeformer::move(const PrimitiveDesc& primitive, const
     const std::size_t segments = std::min(nodes_.segments(), kMaxDeformationSegments);
     if (!accessors_.allocate(primitive.positions.size() * (segments + 1), 2 * sizeof(Vec3f), where)) return {};
     std::vector<VertexStep> steps(segments + 1);
-    std::vector<Mat4d> joints(binding ? binding->joints.size() : 0);
+    constexpr std::uint64_t kStepsOfJoint = 32;
+    std::vector<Mat4d> joints(binding && deformation.influences > 0 ? deformation.largest_joint() + 1 : 0);
     for (std::size_t s = 0; s <= segments; ++s) {
         const std::size_t moment = s * (nodes_.segments() / segments);
+        const std::vector<double>& weights = weights_of(node, nodes_.weights_at(node, moment));
+        const std::uint64_t work = work_of(deformation, weights, binding.has_value()) + kStepsOfJoint * joints.size();
+        if (!accessors_.allow_work(work, where)) return {};
         PrimitiveDesc vertices;
         vertices.positions = primitive.positions;
         vertices.normals = primitive.normals;
-        morph(vertices, deformation, weights_of(node, nodes_.weights_at(node, moment)));
+        morph(vertices, deformation, weights);
         for (std::size_t j = 0; j < joints.size(); ++j)
             joints[j] = binding->inverse_bind[j] * nodes_.to_world_at(binding->joints[j], moment);
         if (binding) skin(vertices, deformation, joints);
@@ -124,7 +139,7 @@ const std::optional<MeshDeformer::Binding>& MeshDeformer::binding_of(int skin, c
 }
 
 std::optional<MeshDeformer::Binding> MeshDeformer::bind(const GltfSkin& skin, const SourceLocation& where) {
-    Binding binding{skin.joints, std::vector<Mat4d>(skin.joints.size()), {}};
+    Binding binding{skin.joints, std::vector<Mat4d>(skin.joints.size()), {}, false};
     std::vector<Mat4d>& matrices = binding.inverse_bind;
     if (skin.inverse_bind_matrices) {
         const std::optional<AttributeData> data = accessors_.attribute(*skin.inverse_bind_matrices, {16, 16}, where);
@@ -147,6 +162,7 @@ std::optional<MeshDeformer::Binding> MeshDeformer::bind(const GltfSkin& skin, co
             return std::nullopt;
         }
         binding.to_world.push_back(matrices[j] * *joint);
+        binding.moves = binding.moves || !nodes_.motion(skin.joints[j]).empty();
     }
     return binding;
 }

@@ -43,6 +43,7 @@ class MeshDeformer {
         std::span<const int> joints;      ///< nodes
         std::vector<Mat4d> inverse_bind;  ///< from the mesh to each joint
         std::vector<Mat4d> to_world;      ///< from the mesh to the world by way of each joint
+        bool moves = false;               ///< a joint moves while the shutter is open
     };
 
     /// Returns the binding of the skin of this glTF index, made once however many nodes have it.

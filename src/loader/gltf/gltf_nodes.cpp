@@ -36,6 +36,14 @@ constexpr std::uint64_t kBytesOfPlace = 1024;
 /// About what each primitive of a placed mesh takes besides: its slot for a light and its box.
 constexpr std::uint64_t kBytesOfPlacedPrimitive = 64;
 
+/// Returns about what a name of `size` bytes takes where it is placed: a long one is copied from description to
+/// description, and a short one hardly counts.
+std::uint64_t bytes_of_name(std::size_t size) {
+    constexpr std::size_t kLong = 256;
+    constexpr std::uint64_t kCopies = 8;
+    return size > kLong ? kCopies * size : size;
+}
+
 /// Returns the planes that the file's camera has; without a far one, it sees everything.
 ClipDesc clip_of(const auto& camera) {
     ClipDesc clip{.start = static_cast<float>(camera.znear)};
@@ -82,10 +90,8 @@ class Placer {
           nodes_(nodes),
           scene_(scene),
           problems_(problems),
-          lights_(document, accessors, scene, problems) {
-        for (const tinygltf::Light& light : document.model.lights)
-            longest_light_name_ = std::max(longest_light_name_, light.name.size());
-    }
+          lights_(document, accessors, scene, problems),
+          longest_light_name_(LightReader::longest_name(document)) {}
 
     /// Adds to the scene every node that the scene shows, parents before their children.
     void add_nodes(std::span<const int> parents) {
@@ -117,7 +123,7 @@ class Placer {
             problems_.warning(where, "the node's transform is singular: its camera and light are left out");
             return;
         }
-        if (!accessors_.allocate(1, kBytesOfPlace + node.name.size() + name_bytes(node), where)) return;
+        if (!accessors_.allocate(1, kBytesOfPlace + bytes_of_name(node.name.size()) + name_bytes(node), where)) return;
         if (node.camera >= 0) place_camera(node, *rigid, motion);
         if (node.camera >= 0 && placed.to_world.determinant() < 0.0)
             problems_.note(where, "mirrors its camera, but the image is not mirrored: cameras have no scale in glTF");
@@ -131,8 +137,9 @@ class Placer {
     /// Returns the bytes that names of the node's camera and light may take.
     [[nodiscard]] std::uint64_t name_bytes(const tinygltf::Node& node) const {
         std::uint64_t bytes = 0;
-        if (node.camera >= 0) bytes = document_.model.cameras[static_cast<std::size_t>(node.camera)].name.size();
-        if (LightReader::has_light(node)) bytes += longest_light_name_;
+        if (node.camera >= 0)
+            bytes = bytes_of_name(document_.model.cameras[static_cast<std::size_t>(node.camera)].name.size());
+        if (LightReader::has_light(node)) bytes += bytes_of_name(longest_light_name_);
         return bytes;
     }
 
@@ -179,9 +186,10 @@ class Placer {
                                        const SourceLocation& where) {
         const std::size_t primitives = scene_.meshes[static_cast<std::size_t>(mesh.index)].primitives.size();
         // Every place copies the name, and a file may make names of any length.
-        const std::uint64_t name =
+        const std::size_t name =
             std::max(node.name.size(), scene_.meshes[static_cast<std::size_t>(mesh.index)].name.size());
-        return accessors_.allocate(count, kBytesOfPlace + name + kBytesOfPlacedPrimitive * primitives, where);
+        return accessors_.allocate(count, kBytesOfPlace + bytes_of_name(name) + kBytesOfPlacedPrimitive * primitives,
+                                   where);
     }
 
     void place_instances(const tinygltf::Node& node, Handle<MeshDesc> mesh, const tinygltf::Value& extension,
@@ -304,14 +312,14 @@ class Placer {
     SceneDesc& scene_;
     ProblemList& problems_;
     LightReader lights_;
+    std::size_t longest_light_name_;           ///< bytes
+    FreeNames camera_names_;                   ///< cameras are chosen by name, so each has one of its own
     std::vector<std::uint32_t> node_index_;    ///< index in the scene of each of the file's nodes
     std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
     std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
     /// A mesh, and the transform that makes it flat, without its last row.
     using FlatShape = std::pair<std::int32_t, std::array<double, 9>>;
     std::map<FlatShape, Handle<MeshDesc>> flat_meshes_;
-    std::size_t longest_light_name_ = 0;  ///< bytes
-    FreeNames camera_names_;              ///< cameras are chosen by name, so each has one of its own
 };
 
 /// How much of everything that nodes place a scene has.
@@ -402,9 +410,10 @@ SweptSpace swept_by_animation(const GltfDocument& document, std::span<const Mesh
     const PlacedCounts counts(scene);
     const auto [first, last] = animation.time_span();
     SweptSpace swept;
+    AccessorReader accessors(document, problems);
     for (int i = 0; i < kMoments && !problems.has_errors(); ++i) {
         shown.time_code = std::lerp(first, last, static_cast<double>(i) / (kMoments - 1));
-        AccessorReader accessors(document, problems);
+        accessors.forget();
         PosedNodes nodes(document, roots, parents, &animation, shown, accessors, problems);
         nodes.move_origin(scene.origin);
         place_all(document, accessors, deformations, nodes, parents, scene, problems);

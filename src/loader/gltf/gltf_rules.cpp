@@ -20,6 +20,19 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// A place in the document: its pointer is put together only where something is wrong, as keys may be long.
+struct JsonPlace {
+    const JsonPlace* parent;  ///< none of the document itself
+    const std::string* key;   ///< none of an element of an array
+    std::size_t index;
+};
+
+std::string pointer_of(const JsonPlace& place) {
+    if (place.parent == nullptr) return {};
+    const std::string parent = pointer_of(*place.parent);
+    return place.key != nullptr ? child_pointer(parent, *place.key) : child_pointer(parent, place.index);
+}
+
 class RuleCheck {
   public:
     RuleCheck(const Json& document, const SourceLocation& file, ProblemList& problems)
@@ -27,7 +40,7 @@ class RuleCheck {
 
     void run() {
         for (const Json& used : list("extensionsUsed")) used_.insert(used.get<std::string>());
-        check_tree(document_, "");
+        check_tree(document_, {nullptr, nullptr, 0});
         for (const Json& required : list("extensionsRequired"))
             if (!used_.contains(required.get<std::string>()))
                 repairs_.add(Repair::RequiredNotUsed, 1, at("/extensionsRequired"));
@@ -76,15 +89,19 @@ class RuleCheck {
         for (std::size_t i = 0; i < elements.size(); ++i) visit(elements[i], child_pointer(std::string("/") + key, i));
     }
 
+    void repair(Repair kind, const JsonPlace& place) {
+        repairs_.add(kind, 1, at(repairs_.has(kind) ? std::string() : pointer_of(place)));
+    }
+
     /// Empty arrays, and extensions that are not declared, wherever they are. `extras` may hold what they like.
-    void check_tree(const Json& place, const std::string& pointer) {
-        if (place.is_array()) {
-            if (place.empty()) repairs_.add(Repair::EmptyArrays, 1, at(pointer));
-            for (std::size_t i = 0; i < place.size(); ++i)
-                if (place[i].is_structured()) check_tree(place[i], child_pointer(pointer, i));
-        } else if (place.is_object()) {
-            for (const auto& [key, value] : place.items()) {
-                const std::string child = child_pointer(pointer, key);
+    void check_tree(const Json& part, const JsonPlace& place) {
+        if (part.is_array()) {
+            if (part.empty()) repair(Repair::EmptyArrays, place);
+            for (std::size_t i = 0; i < part.size(); ++i)
+                if (part[i].is_structured()) check_tree(part[i], {&place, nullptr, i});
+        } else if (part.is_object()) {
+            for (const auto& [key, value] : part.items()) {
+                const JsonPlace child{&place, &key, 0};
                 if (key == "extensions" && value.is_object())
                     check_declared(value, child);
                 else if (key != "extras" && value.is_structured())
@@ -93,10 +110,10 @@ class RuleCheck {
         }
     }
 
-    void check_declared(const Json& extensions, const std::string& pointer) {
+    void check_declared(const Json& extensions, const JsonPlace& place) {
         for (const auto& [name, value] : extensions.items()) {
-            const std::string child = child_pointer(pointer, name);
-            if (!used_.contains(name)) repairs_.add(Repair::Undeclared, 1, at(child));
+            const JsonPlace child{&place, &name, 0};
+            if (!used_.contains(name)) repair(Repair::Undeclared, child);
             check_tree(value, child);
         }
     }

@@ -45,6 +45,8 @@ class RepairLog {
   public:
     /// `count` more were repaired at `where`.
     void add(Repair repair, std::size_t count, const SourceLocation& where);
+    /// Returns whether something of this kind was repaired: the places of others do not matter.
+    [[nodiscard]] bool has(Repair repair) const { return entries_[static_cast<std::size_t>(repair)].count > 0; }
 
     /// One warning for each kind of repair, at the place of the first.
     void report(ProblemList& problems) const;

@@ -6,6 +6,7 @@
 #include "loader/ies/ies_file.h"
 #include "loader/json_text.h"
 #include "loader/settings/json_object.h"
+#include "loader/settings/known_names.h"
 #include "loader/settings/lamp_surface.h"
 #include "scene/transform.h"
 #include "scene/validate_parts.h"
@@ -103,7 +104,12 @@ ShapeDesc shape_of(const LightOverride& lamp) {
 class LightChanges {
   public:
     LightChanges(SceneDesc& scene, ProblemList& problems)
-        : scene_(scene), problems_(problems), files_(scene, problems), softening_(scene.lights.size()) {
+        : scene_(scene),
+          problems_(problems),
+          files_(scene, problems),
+          softening_(scene.lights.size()),
+          known_lights_([this] { return names_of_lights(); }),
+          known_nodes_([this] { return names_of(scene_.nodes); }) {
         for (const std::string_view name : node_names_of_lights(scene)) node_names_.emplace_back(name);
     }
 
@@ -176,13 +182,17 @@ class LightChanges {
                    fmt::format("the node '{}' has no light: give it one by a \"type\"", shown(name)));
             return;
         }
+        report(change, change.location,
+               fmt::format("the scene has no light '{}'; {}", shown(name), known_lights_.hint(name, problems_)));
+    }
+
+    /// Returns the names of the lamps of the file and of their nodes, sorted.
+    [[nodiscard]] std::vector<std::string_view> names_of_lights() const {
         std::set<std::string_view> names;
         for (const LightDesc& light : scene_.lights) names.insert(light.name);
         names.insert(node_names_.begin(), node_names_.end());
         names.erase(std::string_view());
-        const std::vector<std::string_view> sorted(names.begin(), names.end());
-        report(change, change.location,
-               fmt::format("the scene has no light '{}'; {}", shown(name), name_hint(name, sorted)));
+        return {names.begin(), names.end()};
     }
 
     [[nodiscard]] Handle<IesProfileDesc> profile_of(const LightOverride& change) {
@@ -264,18 +274,14 @@ class LightChanges {
     }
 
     void report_unknown_node(const std::string& name, const LightOverride& lamp) {
-        std::set<std::string_view> names;
-        for (const NodeDesc& node : scene_.nodes)
-            if (!node.name.empty()) names.insert(node.name);
-        const std::vector<std::string_view> sorted(names.begin(), names.end());
+        const std::string hint = known_nodes_.hint(name, problems_);
         if (lamp.place.node.empty())
             report(lamp, lamp.location,
                    fmt::format("nothing says where the light is: give it a \"position\" or a \"node\", or the "
                                "name of one; {}",
-                               name_hint(name, sorted)));
+                               hint));
         else
-            report(lamp, at(lamp, "node"),
-                   fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
+            report(lamp, at(lamp, "node"), fmt::format("the scene has no node '{}'; {}", shown(name), hint));
     }
 
     /// Returns the rigid parts of the steps of `motion`; `to_world` stands in for a step that has none.
@@ -398,7 +404,9 @@ class LightChanges {
     ProfileFiles files_;
     std::vector<std::string> node_names_;  ///< by lamp, as `node_names_of_lights` has them
     std::vector<Softening> softening_;     ///< by lamp of the file
-    std::size_t reported_ = 0;             ///< how often `report` was called
+    KnownNames known_lights_;              ///< asked before lamps are added or removed
+    KnownNames known_nodes_;
+    std::size_t reported_ = 0;  ///< how often `report` was called
 };
 
 }  // namespace

@@ -4,39 +4,19 @@
 #include "loader/json_text.h"
 #include "loader/settings/apply_lights.h"
 #include "loader/settings/json_object.h"
+#include "loader/settings/known_names.h"
 #include "loader/settings/render_json.h"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <span>
-#include <vector>
+#include <string_view>
 
 #include <fmt/format.h>
 
 namespace etendue {
 
 namespace {
-
-/// The distinct names that `items` have.
-template <typename Item>
-std::vector<std::string_view> names_of(const std::vector<Item>& items) {
-    std::vector<std::string_view> names;
-    for (const Item& item : items) {
-        if (!item.name.empty()) names.push_back(item.name);
-    }
-    std::ranges::sort(names);
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
-}
-
-template <typename Item>
-bool check_name(const std::vector<Item>& items, std::string_view kind, const std::string& name,
-                const SourceLocation& where, ProblemList& problems) {
-    if (!name.empty() && std::ranges::find(items, name, &Item::name) != items.end()) return true;
-    const std::vector<std::string_view> names = names_of(items);
-    problems.error(where, fmt::format("the scene has no {} '{}'; {}", kind, shown(name), name_hint(name, names)));
-    return false;
-}
 
 /// Only bodies have one.
 void apply_priority(int priority, const SourceLocation& where, MaterialDesc& material, ProblemList& problems) {
@@ -78,19 +58,28 @@ void set_seen_as(SeenAs seen_as, bool is_set, MaterialDesc& material) {
         material.seen_as = SeenAs::Surface;
 }
 
+void apply_material(const MaterialOverride& change, MaterialDesc& material, ProblemList& problems) {
+    material.override_model = change.model;
+    apply_factors(change, material, problems);
+    if (change.priority) apply_priority(*change.priority, change.location, material, problems);
+    material.visible_to_camera = change.visible_to_camera.value_or(material.visible_to_camera);
+    if (change.catches_shadows) set_seen_as(SeenAs::Shadow, *change.catches_shadows, material);
+    if (change.is_holdout) set_seen_as(SeenAs::Hole, *change.is_holdout, material);
+    if (change.emission) set_emission(change.emission->color, change.emission->strength, material);
+}
+
 void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    if (json.materials.empty()) return;
+    std::multimap<std::string_view, MaterialDesc*> materials;
+    for (MaterialDesc& material : scene.materials)
+        if (!material.name.empty()) materials.emplace(material.name, &material);
+    KnownNames known([&scene] { return names_of(scene.materials); });
     for (const auto& [name, change] : json.materials) {
-        if (!check_name(scene.materials, "material", name, change.location, problems)) continue;
-        for (MaterialDesc& material : scene.materials) {
-            if (material.name != name) continue;
-            material.override_model = change.model;
-            apply_factors(change, material, problems);
-            if (change.priority) apply_priority(*change.priority, change.location, material, problems);
-            material.visible_to_camera = change.visible_to_camera.value_or(material.visible_to_camera);
-            if (change.catches_shadows) set_seen_as(SeenAs::Shadow, *change.catches_shadows, material);
-            if (change.is_holdout) set_seen_as(SeenAs::Hole, *change.is_holdout, material);
-            if (change.emission) set_emission(change.emission->color, change.emission->strength, material);
-        }
+        const auto [begin, end] = materials.equal_range(name);
+        if (begin == end)
+            problems.error(change.location,
+                           fmt::format("the scene has no material '{}'; {}", shown(name), known.hint(name, problems)));
+        for (auto entry = begin; entry != end; ++entry) apply_material(change, *entry->second, problems);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "core/shown_text.h"
 #include "loader/json_text.h"
 #include "loader/loader.h"
+#include "loader/settings/known_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,14 +139,11 @@ void note_without_effect(const LensSettings& lens, const ViewSettings& view, con
                               is_perspective && is_pinhole ? "a pinhole" : type, fmt::join(ignored, ", "), hint));
 }
 
-bool has_node(const SceneDesc& scene, const std::string& name, const SourceLocation& where, ProblemList& problems) {
-    std::vector<std::string_view> names;
-    for (const NodeDesc& node : scene.nodes)
-        if (!node.name.empty()) names.emplace_back(node.name);
-    if (std::ranges::find(names, name) != names.end()) return true;
-    std::ranges::sort(names);
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    problems.error(where, fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, names)));
+/// False, with an error among `found`, if the scene has no node of this name; `all` are the problems of the scene.
+bool has_node(const SceneDesc& scene, KnownNames& known, const std::string& name, const SourceLocation& where,
+              const ProblemList& all, ProblemList& found) {
+    if (std::ranges::find(scene.nodes, name, &NodeDesc::name) != scene.nodes.end()) return true;
+    found.error(where, fmt::format("the scene has no node '{}'; {}", shown(name), known.hint(name, all)));
     return false;
 }
 
@@ -223,12 +221,14 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
                           const CameraChange& own, SceneDesc& scene, ProblemList& problems) {
     if (!all.empty() && scene.cameras.empty())
         problems.warning(all.location, "what is said of the lens is ignored: the scene has no camera");
+    KnownNames known_cameras([&scene] { return camera_names(scene); });
+    KnownNames known_nodes([&scene] { return names_of(scene.nodes); });
     std::vector<const CameraChange*> change_of(scene.cameras.size(), nullptr);
     for (const auto& [name, change] : changes) {
         const CameraDesc* const camera = find_camera(scene, name);
         if (camera == nullptr) {
             problems.error(change.location, fmt::format("the scene has no camera '{}'; {}", shown(name),
-                                                        name_hint(name, camera_names(scene))));
+                                                        known_cameras.hint(name, problems)));
             continue;
         }
         const CameraChange*& place = change_of[static_cast<std::size_t>(camera - scene.cameras.data())];
@@ -243,8 +243,8 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
     const auto at_focus = [](const SourceLocation& where) {
         return SourceLocation{where.file, child_pointer(where.pointer, "focus_node")};
     };
-    const bool has_node_of_all =
-        !all.focus_node.empty() && has_node(scene, all.focus_node, at_focus(all.location), problems);
+    const bool has_node_of_all = !all.focus_node.empty() && has_node(scene, known_nodes, all.focus_node,
+                                                                     at_focus(all.location), problems, problems);
     const std::string& wanted = scene.settings.camera;
     const CameraDesc* const chosen = wanted.empty() ? scene.cameras.data() : find_camera(scene, wanted);
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
@@ -270,7 +270,7 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
         const bool is_own = change != nullptr && !change->lens.focus_node.empty();
         const SourceLocation where = at_focus(lens.location);
         ProblemList found;
-        if (is_own ? has_node(scene, lens.focus_node, where, found) : has_node_of_all)
+        if (is_own ? has_node(scene, known_nodes, lens.focus_node, where, problems, found) : has_node_of_all)
             focus_on_node(scene, lens.focus_node, view_of(scene, camera, &camera == chosen), where,
                           is_own || &camera == chosen, camera, found);
         for (Problem problem : found.all()) {

@@ -181,6 +181,10 @@ void JsonObject::finish(PlaceOfKey place) {
         if (std::ranges::find(known, key) == known.end()) known.push_back(key);
     for (const auto& [key, value] : object_->items()) {
         if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
+        if (problems_.is_full()) {
+            problems_.error({}, {});  // is only counted
+            continue;
+        }
         const std::string elsewhere = place != nullptr ? place(key) : "";
         problems_.error(at(key), fmt::format("unknown key '{}'; {}", shown(key),
                                              elsewhere.empty() ? name_hint(key, known) : elsewhere));

@@ -2,10 +2,10 @@
 
 #include "core/shown_text.h"
 #include "loader/json_text.h"
+#include "loader/settings/known_names.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 #include <string_view>
 #include <vector>
 
@@ -15,20 +15,15 @@ namespace etendue {
 
 namespace {
 
-/// Returns the sorted names of `things`, each once.
-template <typename Thing>
-std::vector<std::string_view> sorted_names(const std::vector<Thing>& things) {
-    std::set<std::string_view> names;
-    for (const Thing& thing : things)
-        if (!thing.name.empty()) names.insert(thing.name);
-    return {names.begin(), names.end()};
-}
-
 /// Puts shapes into a scene.
 class ShapePlacer {
   public:
     ShapePlacer(SceneDesc& scene, ProblemList& problems)
-        : scene_(scene), problems_(problems), taken_by_(scene.instances.size()) {}
+        : scene_(scene),
+          problems_(problems),
+          taken_by_(scene.instances.size()),
+          known_materials_([&scene] { return names_of(scene.materials); }),
+          known_nodes_([&scene] { return names_of(scene.nodes); }) {}
 
     void put(const std::string& name, const ShapeChange& change) {
         Handle<MaterialDesc> material;
@@ -37,7 +32,7 @@ class ShapePlacer {
             if (found == scene_.materials.end())
                 return report(change, "material",
                               fmt::format("the scene has no material '{}'; {}", shown(change.material),
-                                          name_hint(change.material, sorted_names(scene_.materials))));
+                                          known_materials_.hint(change.material, problems_)));
             material.index = static_cast<std::int32_t>(found - scene_.materials.begin());
         }
         if (change.place.position) {
@@ -52,11 +47,11 @@ class ShapePlacer {
             return problems_.error(change.location,
                                    fmt::format("nothing says where the shape is: give it a \"position\" or a \"node\", "
                                                "or the name of one; {}",
-                                               name_hint(node, sorted_names(scene_.nodes))));
+                                               known_nodes_.hint(node, problems_)));
         if (nodes.empty())
-            return report(change, "node",
-                          fmt::format("the scene has no node '{}'; {}", shown(node),
-                                      name_hint(node, sorted_names(scene_.nodes))));
+            return report(
+                change, "node",
+                fmt::format("the scene has no node '{}'; {}", shown(node), known_nodes_.hint(node, problems_)));
         if (replace_meshes(name, change, material, nodes)) return;
         for (const std::uint32_t n : nodes) {
             add(name, change, material, {scene_.nodes[n].to_world, scene_.nodes[n].motion, n});
@@ -145,7 +140,9 @@ class ShapePlacer {
 
     SceneDesc& scene_;
     ProblemList& problems_;
-    std::vector<std::string> taken_by_;  ///< by instance of the file, the shape that took its mesh's place
+    std::vector<std::string_view> taken_by_;  ///< by instance of the file, the shape that took its mesh's place
+    KnownNames known_materials_;
+    KnownNames known_nodes_;
 };
 
 }  // namespace

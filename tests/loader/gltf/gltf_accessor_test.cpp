@@ -220,7 +220,7 @@ const BadAccessor kBadAccessors[] = {
              {"indices", {{"bufferView", b.view(std::vector<std::uint16_t>{0, 3})}, {"componentType", 5123}}},
              {"values", {{"bufferView", 0}}}};
      }},
-    {"SparseCountTooLarge", "do not fit",
+    {"SparseCountTooLarge", "2000000000 sparse values are more than",
      [](GltfBuilder& b) {
          positions(b)["sparse"] = {{"count", 2'000'000'000},
                                    {"indices", {{"bufferView", 0}, {"componentType", 5121}}},

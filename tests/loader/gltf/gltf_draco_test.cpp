@@ -142,6 +142,16 @@ TEST(Draco, CountsThatWouldTakeTooMuchMemoryAreRefused) {
     }
 }
 
+// Each of the primitives claims 10 million faces, for which tables of a second are made, and has none.
+TEST(Draco, BrokenDataIsNotMadeReadyForAgainAndAgain) {
+    GltfBuilder builder = compressed_mesh(with_count(encoded_square(), 11 + 2, 10'000'000));
+    const nlohmann::json primitive = builder.json["meshes"][0]["primitives"][0];
+    for (int i = 1; i < 100; ++i) builder.json["meshes"][0]["primitives"].push_back(primitive);
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "cannot be decoded"));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "would take too much memory"));
+}
+
 TEST(Draco, EveryMethodAsksBeforeAttributesAreDecoded) {
     // Positions of three floats and colours of four bytes, as such and as integers, and two places each.
     constexpr std::uint64_t kAttributes = 4 * (3 * (4 + 4) + 8 + 4 * (1 + 4) + 8);
