@@ -145,7 +145,8 @@ bool write_weights(std::span<const std::string> tokens, const PointerValue& valu
     }
     const std::optional<std::size_t> target = to_index(tokens.front());
     if (tokens.size() != 1 || numbers.size() != 1 || !target || *target >= targets) return false;
-    if (weights.size() < targets && !budget.take(targets * sizeof(double)))
+    const std::size_t taken = std::max(targets, mesh.weights.size());
+    if (weights.size() < targets && !budget.take(taken * sizeof(double)))
         throw SceneError(value.where, DecodeBudget::kExceeded);
     if (weights.empty()) weights = mesh.weights;
     weights.resize(targets);

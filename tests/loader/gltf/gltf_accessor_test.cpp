@@ -1,7 +1,10 @@
 // Accessors, through the loader: every legal way to store numbers, and every way to point outside.
 
+#include "loader/gltf/gltf_accessor.h"
+
 #include "loader/gltf/gltf_builder.h"
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 
@@ -220,6 +223,13 @@ const BadAccessor kBadAccessors[] = {
              {"indices", {{"bufferView", b.view(std::vector<std::uint16_t>{0, 3})}, {"componentType", 5123}}},
              {"values", {{"bufferView", 0}}}};
      }},
+    {"SparseValuesTooShort", "do not fit",
+     [](GltfBuilder& b) {
+         positions(b)["sparse"] = {
+             {"count", 2},
+             {"indices", {{"bufferView", b.view(std::vector<std::uint8_t>{0})}, {"componentType", 5121}}},
+             {"values", {{"bufferView", 0}}}};
+     }},
     {"SparseCountTooLarge", "2000000000 sparse values are more than",
      [](GltfBuilder& b) {
          positions(b)["sparse"] = {{"count", 2'000'000'000},
@@ -255,6 +265,21 @@ TEST(Accessor, SharingTheSameBytesWithoutEndIsAnError) {
     builder.json["meshes"][0]["primitives"] = list;
     const LoadedScene loaded = builder.load();
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "refers to the same things so often"));
+}
+
+TEST(Accessor, WorkHasALimitOfItsOwn) {
+    constexpr std::uint64_t kWork = std::uint64_t{1} << 32;
+    const GltfDocument document{};
+    ProblemList problems;
+    AccessorReader accessors(document, problems);
+    EXPECT_TRUE(accessors.allow_work(kWork, {}));
+    EXPECT_TRUE(accessors.allocate(kWork / 4, 1, {})) << "memory is counted by itself";
+    EXPECT_FALSE(accessors.is_exhausted());
+    accessors.forget();
+    EXPECT_TRUE(accessors.allocate(1, 1, {}));
+    EXPECT_FALSE(accessors.allow_work(4, {})) << "work stays done";
+    EXPECT_TRUE(accessors.is_exhausted());
+    EXPECT_TRUE(has_problem(problems, Severity::Error, "too long to load")) << listing(problems);
 }
 
 /// A triangle whose positions, normals and texture coordinates are quantised.

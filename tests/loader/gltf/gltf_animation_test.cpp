@@ -286,6 +286,24 @@ TEST(Animation, ThoseThatAreNotShownAreReadIfAsked) {
     }
 }
 
+TEST(Animation, ThoseThatAreNotShownShareOneBudget) {
+    // Nothing in the file is as long as its accessors, which 99 animations read.
+    GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
+    nlohmann::json& accessors = builder.json["accessors"];
+    const std::size_t input = accessors.size();
+    accessors.push_back({{"type", "SCALAR"}, {"componentType", 5126}, {"count", 1 << 24}});
+    accessors.push_back({{"type", "VEC3"}, {"componentType", 5126}, {"count", 1 << 24}});
+    nlohmann::json& animations = builder.json["animations"];
+    animations[0]["samplers"][0] = {{"input", input}, {"output", input + 1}};
+    const nlohmann::json animation = animations[0];
+    for (int i = 1; i < 99; ++i) animations.push_back(animation);
+    const ProblemList problems = builder.load(LoadOptions{.every_animation = true}).problems;
+    EXPECT_FALSE(problems.has_errors()) << listing(problems);
+    EXPECT_TRUE(has_problem(problems, Severity::Warning, "refers to the same things so often", "/channels/0"))
+        << listing(problems);
+    EXPECT_LT(problems.all().size(), 20u) << "the rest is not read";
+}
+
 TEST(Morph, WeightsOfTheNodeComeBeforeTheMeshs) {
     GltfBuilder builder = morphing();
     EXPECT_EQ(third_vertex(builder.load()), Vec3f(0, 1, 0));

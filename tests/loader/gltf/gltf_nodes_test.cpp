@@ -427,6 +427,21 @@ LoadedScene with_spot(double inner, double outer) {
     return builder.load();
 }
 
+TEST(Lights, CopiesOfLongNamesHaveALimit) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", std::string(1'000'000, 'n')}}};
+    for (int i = 1; i <= 300; ++i) {
+        builder.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+        builder.json["scenes"][0]["nodes"].push_back(i);
+    }
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "refers to the same things so often"))
+        << listing(loaded.problems);
+}
+
 TEST(Lights, ConesAreMovedIntoTheirRange) {
     const double right = std::acos(0.0);
     const struct {

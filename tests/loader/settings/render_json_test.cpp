@@ -203,6 +203,15 @@ TEST(RenderJson, UnknownNamesSuggestTheNearest) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "did you mean 'lamp'", "/lights/lamb"));
 }
 
+TEST(RenderJson, UnknownNamesBeyondTheLongestListAreCounted) {
+    std::string materials;
+    for (int i = 0; i < 1100; ++i)
+        materials += fmt::format(R"({}"papier{}": {{"diffuse": {{}}}})", i > 0 ? ", " : "", i);
+    const LoadedScene loaded = load_with(R"({"materials": {)" + materials + "}}");
+    EXPECT_EQ(loaded.problems.all().size(), ProblemList::kMaxProblems);
+    EXPECT_GE(loaded.problems.error_count(), 1100u);
+}
+
 TEST(RenderJson, MaterialOverrides) {
     const auto material = [](const std::string& change) {
         const LoadedScene loaded = load_with("{\"materials\": {\"paper\": " + change + "}}");
