@@ -144,6 +144,12 @@ void require_consistent(const CLI::App& command, const CompareArguments& given) 
     require_different("--integrators", given.integrators);
     std::vector<std::string> names = given.integrators;
     for (const NamedOptions& variant : given.variants) names.push_back(variant.name);
+    if (names.size() == 1 && given.seeds > 1 && given.reference.empty() && given.reference_integrator.empty())
+        throw CLI::ValidationError(given.variants.empty() ? "--integrators" : "--variant",
+                                   fmt::format("'{}' alone gives no reference, which is pooled from 2 variants or "
+                                               "more, and so no errors: give another, --reference or "
+                                               "--reference-integrator",
+                                               names.front()));
     require_different("--variant", names);
     require_different("--insets", given.inset_classes);
     std::vector<std::string> regions = given.inset_classes;

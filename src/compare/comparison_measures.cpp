@@ -231,12 +231,22 @@ std::array<double, 3> mean_error_color(std::span<const float> variance, const Im
     return sums;
 }
 
+/// Returns the relMSE that the reference's own noise adds to `image` in `pixels`; unknown if this noise is.
+double noise_within(const ImageF& image, const Reference& reference, const PixelRect& pixels) {
+    if (reference.variance_of_round(0).empty()) return kUnknown;
+    const auto rel_mse = [&](std::span<const float> variance) {
+        return compute_error_metrics(image, reference.of_round(0), {.region = pixels}, variance).rel_mse;
+    };
+    return rel_mse({}) - rel_mse(reference.variance_of_round(0));
+}
+
 /// Means, and errors if there is a reference.
 RegionReport measure_region(const NamedRegion& region, const ComparisonReport& report,
                             std::span<const FinishedImages> images, const std::optional<Reference>& reference,
                             const PixelRect& window, const Rgb& weights) {
     RegionReport result{.name = region.name, .found = region.found, .pixels = region.pixels};
     const PixelRect pixels = within(region.pixels, window);
+    if (reference) result.reference_noise = noise_within(images.front().of_seeds.front(), *reference, pixels);
     for (std::size_t v = 0; v < images.size(); ++v) {
         RegionVariant variant{.name = report.variants[v].name};
         for (std::size_t seed = 0; seed < images[v].of_seeds.size(); ++seed) {

@@ -46,7 +46,7 @@ struct NamedRegion {
     bool found = false;
 };
 
-/// Sets the largest values of `map`, 0.1% of its pixels, to 0: fireflies.
+/// Sets the largest values of `map`, 0.1% of its pixels, to 0.
 void trim(ImageF& map);
 
 /// Returns the blocks, of a sixth of the shorter side, that may be looked at, in the full image's coordinates; no two
@@ -54,7 +54,7 @@ void trim(ImageF& map);
 [[nodiscard]] std::vector<PixelRect> whole_blocks(const PixelRect& window);
 
 /// The blocks of the image whose errors, of which each variant has a map, differ most between two of the variants; at
-/// most three. The largest 0.1% of each map, which are fireflies, do not count. Blocks with an error that is not finite
+/// most three. The largest 0.1% of each map do not count. Blocks with an error that is not finite
 /// have no place among them.
 [[nodiscard]] std::vector<NamedRegion> find_regions(std::span<const ImageF> maps, const PixelRect& window);
 

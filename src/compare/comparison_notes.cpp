@@ -11,6 +11,41 @@
 
 namespace etendue {
 
+namespace {
+
+/// Returns the variant of least relMSE in `region`; null if none is known.
+const RegionVariant* best_of(const RegionReport& region) {
+    const RegionVariant* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const RegionVariant& variant : region.variants)
+        if (const auto errors = variant.errors.find("relmse");
+            errors != variant.errors.end() && errors->second.mean() < least) {
+            best = &variant;
+            least = errors->second.mean();
+        }
+    return best;
+}
+
+/// Returns a note on the regions in which a pooled reference, whose weights hold for the whole image, is noisier than
+/// the best variant; if there are none, returns nothing.
+std::string noisy_regions(const ComparisonReport& report) {
+    std::vector<std::string> parts;
+    for (const RegionReport& region : report.regions) {
+        const RegionVariant* const best = best_of(region);
+        if (best == nullptr || !(region.reference_noise > best->errors.at("relmse").mean())) continue;
+        parts.push_back(fmt::format("'{}' (its relMSE is {:.3g}, that of '{}' {:.3g})", region.name,
+                                    region.reference_noise, best->name, best->errors.at("relmse").mean()));
+    }
+    if (parts.empty()) return "";
+    return fmt::format(
+        "the pooled reference, whose weights hold for the whole image, is noisier than the best variant in {}: its "
+        "noise is taken off relMSE and MSE as well as it is known, and adds to the other errors; a reference by "
+        "--reference-integrator can have less",
+        fmt::join(parts, ", "));
+}
+
+}  // namespace
+
 std::string unequal_times(const ComparisonReport& report) {
     constexpr double kMostRatio = 1.1;
     if (!report.seconds || report.variants.empty()) return "";
@@ -46,6 +81,7 @@ std::string drowned_errors(const ComparisonReport& report) {
 }
 
 std::string reference_noise(const ComparisonReport& report) {
+    if (report.reference.kind == "pooled") return noisy_regions(report);
     double least = std::numeric_limits<double>::infinity();
     for (const VariantReport& variant : report.variants)
         if (const auto errors = variant.errors.find("relmse"); errors != variant.errors.end())

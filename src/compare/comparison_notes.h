@@ -10,8 +10,8 @@ namespace etendue {
 /// Returns a note if the times of variants were to be equal and differ by more than a tenth; else returns nothing.
 [[nodiscard]] std::string unequal_times(const ComparisonReport& report);
 
-/// Returns a note if a reference that was not pooled has, or may have, noise of more than a tenth of the least error;
-/// else returns nothing.
+/// Returns a note if a reference that was not pooled has, or may have, noise of more than a tenth of the least error,
+/// or one that was pooled has more noise than the least error of a region; else returns nothing.
 [[nodiscard]] std::string reference_noise(const ComparisonReport& report);
 
 /// Returns a note on the variants whose mean time differs from the time asked for by more than a tenth; if there are

@@ -1,9 +1,11 @@
 #include "compare/comparison_renders.h"
 
+#include "core/log.h"
 #include "core/process_time.h"
 #include "film/median_of_means.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
+#include "report/human_units.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
 
@@ -201,6 +203,30 @@ bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
     return true;
 }
 
+/// Renders a variant with one seed, and keeps the images on the way; returns nothing if it is interrupted.
+std::optional<SeedRender> render_once(const Variant& variant, std::uint32_t seed, const RenderBudget& budget,
+                                      const std::string& title, const RendersRequest& request, ImageStore& store,
+                                      const ThreadPool& threads) {
+    SeedRender result{.seed = seed};
+    TimedRender render(variant, seed, threads, budget, title, request.quiet, request.watcher);
+    return keep_images(render, store, result) ? std::optional(std::move(result)) : std::nullopt;
+}
+
+/// Returns the samples with which `render` would have taken the time that is asked for: its own if it did not miss it.
+std::uint32_t fitting_samples(const RenderBudget& asked, const SeedRender& render) {
+    const Snapshot& last = render.checkpoints.back();
+    return asked.seconds ? corrected_samples(last.spp, asked.by_wall ? last.seconds : last.cpu_seconds, *asked.seconds)
+                         : last.spp;
+}
+
+/// Says how long all renders take at least, if they take a time that was asked for.
+void announce(std::size_t variants, const RendersRequest& request, const ThreadPool& threads) {
+    if (const double seconds = least_seconds(variants, request, threads.thread_count());
+        seconds > 0.0 && !request.quiet)
+        log_info("{} {} by {} {} take {} at least", variants, variants == 1 ? "variant" : "variants", request.seeds,
+                 request.seeds == 1 ? "seed" : "seeds", human_seconds(seconds));
+}
+
 }  // namespace
 
 std::uint32_t fit_samples(std::uint32_t wanted, double seconds, double sample_seconds) {
@@ -218,6 +244,19 @@ std::uint32_t calibrated_samples(double seconds, std::span<const SampleCost> cos
     return static_cast<std::uint32_t>(std::lround(std::min(samples.at(samples.size() / 2), double(kMostSamples))));
 }
 
+std::uint32_t corrected_samples(std::uint32_t samples, double taken, double asked) {
+    constexpr double kMostOff = 0.2;
+    if (!(taken > 0.0) || std::abs(taken / asked - 1.0) <= kMostOff) return samples;
+    const double corrected = std::min(samples * asked / taken, double(kMostSamples));
+    return static_cast<std::uint32_t>(std::lround(std::max(1.0, corrected)));
+}
+
+double least_seconds(std::size_t variants, const RendersRequest& request, int threads) {
+    if (!request.budget.seconds) return 0.0;
+    const double of_render = *request.budget.seconds / (request.budget.by_wall ? 1.0 : threads);
+    return static_cast<double>(variants) * request.seeds * of_render;
+}
+
 std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant, std::size_t variants) {
     return first + static_cast<std::uint32_t>(render * variants + variant);
 }
@@ -227,6 +266,7 @@ std::vector<VariantRenders> render_variants(std::span<const Variant> variants, c
     std::vector<VariantRenders> renders(variants.size());
     // All renders of a variant take equally many samples; a single render may spend the time exactly.
     std::vector<RenderBudget> budgets(variants.size(), request.budget);
+    announce(variants.size(), request, threads);
     if (request.budget.seconds && request.seeds == 1 && !warm_up(variants, request, threads)) return renders;
     if (request.budget.seconds && request.seeds > 1) {
         std::optional<std::vector<RenderBudget>> calibrated = calibrate(variants, request, threads);
@@ -235,17 +275,23 @@ std::vector<VariantRenders> render_variants(std::span<const Variant> variants, c
     }
     for (int seed = 0; seed < request.seeds; ++seed)
         for (std::size_t v = 0; v < variants.size(); ++v) {
-            SeedRender result{.seed =
-                                  render_seed(request.first_seed, static_cast<std::size_t>(seed), v, variants.size())};
-            TimedRender render(variants[v], result.seed, threads, budgets[v],
-                               fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds), request.quiet,
-                               request.watcher);
-            if (!keep_images(render, store, result)) {
+            const std::uint32_t number =
+                render_seed(request.first_seed, static_cast<std::size_t>(seed), v, variants.size());
+            const std::string title = fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds);
+            std::optional<SeedRender> result =
+                render_once(variants[v], number, budgets[v], title, request, store, threads);
+            // The first render may find that the calibration, whose renders are short, missed the time.
+            if (result && seed == 0 && request.seeds > 1)
+                if (const std::uint32_t samples = fitting_samples(request.budget, *result);
+                    samples != result->checkpoints.back().spp)
+                    result =
+                        render_once(variants[v], number, {.spp = samples}, title + " again", request, store, threads);
+            if (!result) {
                 for (VariantRenders& of_variant : renders) of_variant.seeds.resize(static_cast<std::size_t>(seed));
                 return renders;
             }
-            budgets[v] = {.spp = result.checkpoints.back().spp};
-            renders[v].seeds.push_back(std::move(result));
+            budgets[v] = {.spp = result->checkpoints.back().spp};
+            renders[v].seeds.push_back(std::move(*result));
         }
     return renders;
 }

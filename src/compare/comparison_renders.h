@@ -67,11 +67,19 @@ struct SampleCost {
 /// `costs` of several renders.
 [[nodiscard]] std::uint32_t calibrated_samples(double seconds, std::span<const SampleCost> costs);
 
+/// Returns the samples that take the time `asked`, at least one, if `samples` took more than a fifth more or less; else
+/// `samples`.
+[[nodiscard]] std::uint32_t corrected_samples(std::uint32_t samples, double taken, double asked);
+
+/// Returns how many seconds on the clock the renders of so many variants take at least; 0 if no time is asked for.
+[[nodiscard]] double least_seconds(std::size_t variants, const RendersRequest& request, int threads);
+
 /// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what
 /// else the machine does falls on all alike. All renders of a variant take as many samples. If times are equal, that
-/// number comes from three renders of each variant before, each for a fifth of the time. With one seed, each variant
-/// renders one sample before, and then until the time is spent. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a
-/// factor of sqrt(2) apart. Once an interrupt is requested, the renders are returned that all variants have.
+/// number comes from three renders of each variant before, each for a fifth of the time, and a first render that misses
+/// the time is made again with samples that take it. With one seed, each variant renders one sample before, and then
+/// until the time is spent. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2) apart. Once an
+/// interrupt is requested, the renders are returned that all variants have.
 [[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
                                                           const RendersRequest& request, ImageStore& store,
                                                           const ThreadPool& threads);

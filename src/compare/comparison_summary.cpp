@@ -15,8 +15,6 @@ namespace etendue {
 
 namespace {
 
-constexpr const char* kOnlyWhole = "; only the whole image could be tested: faults of single regions would not be seen";
-
 void print(const VariantReport& variant) {
     std::string line = fmt::format("{}: {} spp in {:.3g} s, {:.3g} s of CPU time", variant.name, variant.spp,
                                    variant.seconds.mean(), variant.cpu_seconds.mean());
@@ -46,16 +44,30 @@ void print(const PairReport& pair) {
             log_info("{} of {} over that of {}: {}", title, pair.a, pair.b,
                      text_of_ratio(ratio->second, why == pair.no_interval.end() ? "" : why->second));
         }
+}
+
+/// Says of a pair that does not agree what its test says.
+void print_agreement(const PairReport& pair) {
     if (!pair.not_tested.empty())
         log_info("{} and {} are not tested: {}", pair.a, pair.b, pair.not_tested);
-    else if (pair.agreement)
-        log_info("{} and {}, {}: {}; a difference of {} of the whole image{} is seen with probability {}{}", pair.a,
-                 pair.b, pair.verdict() == "disagree" ? "DISAGREE" : pair.verdict(), pair.agreement->str(),
-                 human_percent(pair.smallest_of_image()),
-                 pair.agreement->whole_image_only
-                     ? ""
-                     : fmt::format(", or {} of a block,", human_percent(pair.smallest_of_block())),
-                 kPower, pair.agreement->whole_image_only ? kOnlyWhole : "");
+    else if (pair.verdict() == "disagree")
+        log_info("{} and {} disagree (p = {:.2g})", pair.a, pair.b, pair.agreement->p_value);
+    else if (pair.verdict() == "no difference seen")
+        log_info("between {} and {} no difference is seen, but only one of {} of the whole image would have been{}",
+                 pair.a, pair.b, human_percent(pair.smallest_of_image()),
+                 pair.agreement->whole_image_only ? "; single regions could not be tested" : "");
+}
+
+/// Says in a line that images agree, and names those that do not.
+void print_agreement(const ComparisonReport& report) {
+    const auto agrees = [](const PairReport& pair) { return pair.verdict() == "agree"; };
+    for (const PairReport& pair : report.pairs)
+        if (!agrees(pair)) print_agreement(pair);
+    if (!report.pairs.empty() && std::ranges::all_of(report.pairs, agrees))
+        log_info("all images agree");
+    else
+        for (const PairReport& pair : report.pairs)
+            if (agrees(pair)) log_info("{} and {} agree", pair.a, pair.b);
 }
 
 void print(const RegionReport& region) {
@@ -74,6 +86,8 @@ void print(const RegionReport& region) {
 }  // namespace
 
 void print_summary(const ComparisonReport& report, std::size_t notes_said) {
+    log_info("{}", headline(report));
+    print_agreement(report);
     for (const VariantReport& variant : report.variants) print(variant);
     for (const PairReport& pair : report.pairs) print(pair);
     for (const RegionReport& region : report.regions)

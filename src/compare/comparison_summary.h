@@ -7,7 +7,8 @@
 
 namespace etendue {
 
-/// The figures that are known, and the report's notes but for the first `notes_said`.
+/// Prints the headline, whether images agree, the figures that are known, and the report's notes but for the first
+/// `notes_said`.
 void print_summary(const ComparisonReport& report, std::size_t notes_said);
 
 }  // namespace etendue

@@ -144,9 +144,14 @@ Json to_json(const RegionReport& region) {
                             {"mean_error_of_reference", variant.reference_error},
                             {"errors", object(variant.errors, spread)},
                             {"relmse_time", variant.rel_mse_time}});
-    return {
-        {"name", region.name},    {"found", region.found},  {"x0", region.pixels.x0},         {"y0", region.pixels.y0},
-        {"x1", region.pixels.x1}, {"y1", region.pixels.y1}, {"variants", std::move(variants)}};
+    return {{"name", region.name},
+            {"found", region.found},
+            {"x0", region.pixels.x0},
+            {"y0", region.pixels.y0},
+            {"x1", region.pixels.x1},
+            {"y1", region.pixels.y1},
+            {"reference_noise_relmse", region.reference_noise},
+            {"variants", std::move(variants)}};
 }
 
 Json to_json(const StrategiesReport& report) {
@@ -218,6 +223,8 @@ std::string to_json(const ComparisonReport& report) {
                 {"seeds", report.seeds},
                 {"first_seed", report.first_seed}}},
               {"reference", to_json(report.reference)},
+              {"headline", headline(report)},
+              {"leading_metric", known(report.leading_metric())},
               {"metrics", array(report.metrics)},
               {"maps", object(report.maps,
                               [](const MapScale& scale) {

@@ -85,6 +85,9 @@ struct VariantReport {
 /// of a sentence; empty if they do not. docs/compare.md states the bounds.
 [[nodiscard]] std::string heavy_tail(const VariantReport& variant, const std::string& metric);
 
+/// Returns the share of the relMSE of `variant` that trimming leaves out; unknown if either error is.
+[[nodiscard]] double trimmed_share(const VariantReport& variant);
+
 /// How long one variant takes to come to another's error.
 struct ReachedError {
     double seconds = 0.0;
@@ -139,6 +142,7 @@ struct RegionReport {
     bool found = false;  ///< by the program, where variants differ most; else named by the user
     PixelRect pixels{};
     std::vector<RegionVariant> variants{};
+    double reference_noise = kUnknown;  ///< relMSE of the reference's own noise in the region
 };
 
 /// The image of one strategy.
@@ -232,11 +236,18 @@ struct ComparisonReport {
     [[nodiscard]] bool agrees() const;
     /// Returns the variants that no test says anything of, in their order.
     [[nodiscard]] std::vector<UntestedVariant> untested() const;
+    /// Returns the key of the metric that comes first: relMSE, or the trimmed one where tails leave a ratio of relMSE
+    /// without an interval. Returns nothing without a reference.
+    [[nodiscard]] std::string leading_metric() const;
     /// Returns the seconds by which variants are compared.
     [[nodiscard]] const SeedValues& time_of(const VariantReport& variant) const {
         return by_wall ? variant.seconds : variant.cpu_seconds;
     }
 };
+
+/// Returns which variant is best and by how much, a sentence without its full stop. By errors times the time if times
+/// were to be equal and differ by more than a tenth; by efficiency without a reference.
+[[nodiscard]] std::string headline(const ComparisonReport& report);
 
 /// docs/compare.md describes it.
 [[nodiscard]] std::string to_json(const ComparisonReport& report);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -75,8 +74,19 @@ std::string tex_number(double value) {
     return std::isfinite(value) ? fmt::format("${}$", tex_formula(value, kDigits)) : "--";
 }
 
-/// Marks a ratio whose seeds' tails are too heavy for an interval.
-constexpr const char* kNoInterval = "$^\\dagger$";
+/// Returns the mark of a ratio without an interval: one for each reason.
+std::string tex_mark(std::size_t reason) {
+    constexpr std::array kMarks{"\\dagger", "\\ddagger", "\\S", "\\P"};
+    std::string mark;
+    for (std::size_t i = 0; i <= reason / kMarks.size(); ++i) mark += kMarks.at(reason % kMarks.size());
+    return fmt::format("$^{{{}}}$", mark);
+}
+
+/// "p = 0.42"; a probability that would be rounded to 1 is "p > 0.99".
+std::string tex_probability(double p) {
+    constexpr double kNearlyOne = 0.99;
+    return p > kNearlyOne ? "$p > 0.99$" : fmt::format("$p = {}$", tex_formula(p, 2));
+}
 
 std::string tex_interval(const RatioInterval& interval) {
     if (!std::isfinite(interval.low)) return tex_number(interval.ratio);
@@ -97,7 +107,9 @@ std::vector<std::vector<std::string>> variant_rows(const ComparisonReport& repor
     std::vector<std::vector<std::string>> rows{{"Variant", "spp", "time (s)", "CPU time (s)"}};
     for (const ReportedMetric& metric : report.metrics) rows.front().push_back(tex_text(metric.name));
     const bool has_errors = !report.metrics.empty();
-    for (const char* head : has_errors ? std::array{"median relMSE", "slope"} : std::array{"variance", "efficiency"})
+    const std::string lead = report.leading_metric();
+    const char* const slope_head = lead == "relmse" ? "slope of relMSE" : "slope of trimmed relMSE";
+    for (const char* head : has_errors ? std::array{"median relMSE", slope_head} : std::array{"variance", "efficiency"})
         rows.front().emplace_back(head);
     for (const VariantReport& variant : report.variants) {
         std::vector<std::string> row{tex_text(variant.name), fmt::format("{}", variant.spp),
@@ -112,7 +124,7 @@ std::vector<std::vector<std::string>> variant_rows(const ComparisonReport& repor
         if (has_errors) {
             const auto error = variant.errors.find("relmse");
             row.push_back(error == variant.errors.end() ? "--" : tex_number(error->second.median()));
-            const auto slope = variant.slopes.find("relmse");
+            const auto slope = variant.slopes.find(lead);
             row.push_back(slope == variant.slopes.end() ? "--" : tex_number(slope->second.spp));
         } else {
             row.insert(row.end(), {tex_number(variant.variance), tex_number(variant.efficiency)});
@@ -141,36 +153,49 @@ KeysAndHeads shown_ratios(const ComparisonReport& report) {
     return shown;
 }
 
-/// Returns the rows that say why ratios have no interval.
-std::string reasons(const ComparisonReport& report, std::size_t columns) {
-    std::set<std::string> whys;
+/// Returns the reasons why ratios have no interval, in the order in which they come up.
+std::vector<std::string> reasons_of(const ComparisonReport& report) {
+    std::vector<std::string> reasons;
     for (const PairReport& pair : report.pairs)
         for (const auto& [key, head] : shown_ratios(report))
-            if (const auto why = pair.no_interval.find(key); why != pair.no_interval.end()) whys.insert(why->second);
+            if (const auto why = pair.no_interval.find(key);
+                why != pair.no_interval.end() && std::ranges::find(reasons, why->second) == reasons.end())
+                reasons.push_back(why->second);
+    return reasons;
+}
+
+/// Returns the rows that say why ratios have no interval.
+std::string reason_rows(const std::vector<std::string>& reasons, std::size_t columns) {
     std::string text;
-    for (const std::string& why : whys)
-        text +=
-            fmt::format("\\multicolumn{{{}}}{{l}}{{{} no interval: {}}} \\\\\n", columns, kNoInterval, tex_text(why));
+    for (std::size_t i = 0; i < reasons.size(); ++i)
+        text += fmt::format("\\multicolumn{{{}}}{{l}}{{{} no interval: {}}} \\\\\n", columns, tex_mark(i),
+                            tex_text(reasons[i]));
     return text;
+}
+
+/// Returns a pair's ratio with its interval, or with the mark of the reason why it has none.
+std::string tex_ratio(const PairReport& pair, const std::string& key, const std::vector<std::string>& reasons) {
+    const auto ratio = pair.ratios.find(key);
+    if (ratio == pair.ratios.end()) return "--";
+    const auto why = pair.no_interval.find(key);
+    if (why == pair.no_interval.end()) return tex_interval(ratio->second);
+    const auto place = std::ranges::find(reasons, why->second) - reasons.begin();
+    return tex_interval(ratio->second) + tex_mark(static_cast<std::size_t>(place));
 }
 
 std::vector<std::vector<std::string>> pair_rows(const ComparisonReport& report) {
     const KeysAndHeads shown = shown_ratios(report);
+    const std::vector<std::string> reasons = reasons_of(report);
     std::vector<std::vector<std::string>> rows{{"$a$ / $b$"}};
     for (const auto& [key, head] : shown) rows.front().push_back(head);
     rows.front().emplace_back("agree");
     for (const PairReport& pair : report.pairs) {
         std::vector<std::string> row{fmt::format("{} / {}", tex_text(pair.a), tex_text(pair.b))};
-        for (const auto& [key, head] : shown) {
-            const auto ratio = pair.ratios.find(key);
-            row.push_back(ratio == pair.ratios.end()
-                              ? "--"
-                              : tex_interval(ratio->second) + (pair.no_interval.contains(key) ? kNoInterval : ""));
-        }
+        for (const auto& [key, head] : shown) row.push_back(tex_ratio(pair, key, reasons));
         row.push_back(!pair.not_tested.empty() || !pair.agreement
                           ? "not tested"
-                          : fmt::format("{}, $p = {}$, $\\geq {}\\,\\%$", pair.verdict(),
-                                        tex_formula(pair.agreement->p_value, 2),
+                          : fmt::format("{}, {}, $\\geq {}\\,\\%$", pair.verdict(),
+                                        tex_probability(pair.agreement->p_value),
                                         tex_formula(100.0 * pair.smallest_of_image(), 2)));
         rows.push_back(std::move(row));
     }
@@ -205,7 +230,7 @@ std::string to_tex(const ComparisonReport& report) {
                       "% difference of whole images that the test sees with a probability of {:g}. Time is\n"
                       "% {}.\n{}",
                       100.0 * kRatioConfidence, kPower, report.by_wall ? "that on the clock" : "CPU time",
-                      tex_table(columns_of(pairs), pairs, reasons(report, pairs.front().size())));
+                      tex_table(columns_of(pairs), pairs, reason_rows(reasons_of(report), pairs.front().size())));
 }
 
 }  // namespace etendue

@@ -163,12 +163,14 @@ TEST_F(Compare, RefusesWhatWouldChangeNothing) {
     for (const Names& options :
          {Names{"--aov", "depth"}, Names{"--deep"}, Names{"--owner", "x"}, Names{"--exr-space", "ACEScg"},
           Names{"--integrator", "path"}, Names{"--seeds", "2"}, Names{"--variant", "red"}, Names{"--variant", ": "},
-          Names{"--variant", "a: ", "--variant", "a: "}, Names{"--variant", "a: --deep"}}) {
+          Names{"--variant", "a: ", "--variant", "a: "}, Names{"--seeds", "1", "--variant", "a: --deep"},
+          Names{"--integrators", "path"}, Names{"--variant", "a: ", "--seeds", "3"}}) {
         const ProgramResult result = compare_aloud(options);
         EXPECT_EQ(result.exit_code, 2) << options.front() << " " << options.back() << result.err;
         EXPECT_EQ(result.err.find("1/"), std::string::npos) << "rendered before: " << result.err;
     }
-    const ProgramResult strategies = compare({"--integrators", "path", "--spp", "1", "--strategies-depth", "2"});
+    const ProgramResult strategies =
+        compare({"--integrators", "path", "--spp", "1", "--seeds", "1", "--strategies-depth", "2"});
     EXPECT_EQ(strategies.exit_code, 3) << strategies.err;
     write_grey("grey.exr");
     EXPECT_EQ(compare({"--seeds", "2", "--spp", "1", "--integrators", "path", "--reference", "grey.exr"}).exit_code, 0);
@@ -431,17 +433,29 @@ TEST_F(Compare, VariantsWithoutVarianceAreAReference) {
 
 TEST_F(Compare, WithoutAReferenceOnlyWhatIsKnownIsSaid) {
     const ProgramResult result =
-        compare_aloud({"--spp", "2", "--seeds", "3", "--integrators", "path", "--region", "corner:0,0,4,4"});
+        compare_aloud({"--spp", "2", "--seeds", "3", "--integrator", "path", "--variant", "a: --max-depth 2",
+                       "--variant", "b: --max-depth 3", "--region", "corner:0,0,4,4"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     for (const char* word : {"nan", "relMSE"}) EXPECT_EQ(result.err.find(word), std::string::npos) << result.err;
-    EXPECT_NE(notes().find("one variant alone cannot be pooled"), std::string::npos) << notes();
+    EXPECT_NE(notes().find("no two of the variants show the same light"), std::string::npos) << notes();
     ASSERT_EQ(report()["regions"].size(), 1u) << "its mean needs no reference";
     EXPECT_GT(report()["regions"][0]["variants"][0]["mean"][0], 0.0);
     EXPECT_TRUE(report()["regions"][0]["variants"][0]["errors"].empty());
     const json luminance = report()["regions"][0]["variants"][0]["luminance"];
     ASSERT_EQ(luminance["values"].size(), 3u) << "one of each seed";
     EXPECT_GT(luminance["values"][2], 0.0);
-    EXPECT_NE(result.err.find("corner, path: mean"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("corner, a: mean"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("no errors are known, as there is no reference\n"), std::string::npos) << result.err;
+}
+
+TEST_F(Compare, ItsHeadlineComesFirst) {
+    const ProgramResult result = compare_aloud({"--time", "0.02", "--seeds", "3", "--strategies-depth", "0"});
+    const std::size_t time = result.err.find("2 variants by 3 seeds take ");
+    const std::size_t headline = result.err.find(report()["headline"].get<std::string>());
+    ASSERT_NE(headline, std::string::npos) << result.err;
+    EXPECT_LT(time, headline) << result.err;
+    EXPECT_LT(headline, result.err.find("path: ")) << result.err;
+    EXPECT_EQ(result.err.find("z = "), std::string::npos) << result.err;
 }
 
 TEST_F(Compare, EachPairHasItsOwnScaleOfZ) {
@@ -616,18 +630,18 @@ TEST_F(Compare, SaysWhatIsWrong) {
     EXPECT_EQ(compare({"--integrators", "path,magic"}).exit_code, 2);
     EXPECT_EQ(compare({"--region", "0,0,1,1"}).exit_code, 2);
     EXPECT_EQ(compare({"--reference-time", "3"}).exit_code, 2);
-    const ProgramResult option = compare({"--variant", "a: --max-dept 3"});
+    const ProgramResult option = compare({"--seeds", "1", "--variant", "a: --max-dept 3"});
     EXPECT_EQ(option.exit_code, 2);
     EXPECT_NE(option.err.find("in the options of a variant, '--max-dept 3': there is no option '--max-dept' of "
                               "'render'; did you mean '--max-depth'?"),
               std::string::npos)
         << option.err;
     for (const char* own : {"--seed 3", "--spp 4", "--time 2", "--frames 1:2", "--float", "--half"}) {
-        const ProgramResult result = compare({"--variant", std::string("a: ") + own});
+        const ProgramResult result = compare({"--seeds", "1", "--variant", std::string("a: ") + own});
         EXPECT_EQ(result.exit_code, 2) << own;
         EXPECT_NE(result.err.find("is for 'render'"), std::string::npos) << result.err;
     }
-    const ProgramResult help = compare({"--variant", "a: --help"});
+    const ProgramResult help = compare({"--seeds", "1", "--variant", "a: --help"});
     EXPECT_EQ(help.exit_code, 2);
     EXPECT_NE(help.err.find("in the options of a variant, '--help': there is no option '--help'"), std::string::npos)
         << help.err;

@@ -38,6 +38,19 @@ TEST(ReferenceNoise, IsNotedWhereItIsMuchOfTheLeastError) {
     EXPECT_EQ(reference_noise(report), "");
 }
 
+TEST(ReferenceNoise, OfAPooledOneIsNotedWhereItIsMoreThanAnError) {
+    ComparisonReport report;
+    report.reference = {.kind = "pooled", .noise_rel_mse = 0.01};
+    report.regions.push_back({.name = "caustic",
+                              .variants = {{.name = "path", .errors = {{"relmse", {{9.0}}}}},
+                                           {.name = "bdpt", .errors = {{"relmse", {{0.2}}}}}},
+                              .reference_noise = 0.1});
+    EXPECT_EQ(reference_noise(report), "");
+    report.regions[0].reference_noise = 2.5;
+    EXPECT_NE(reference_noise(report).find("in 'caustic' (its relMSE is 2.5, that of 'bdpt' 0.2)"), std::string::npos)
+        << reference_noise(report);
+}
+
 TEST(OffBudget, AreMeansMoreThanATenthFromTheTimeAskedFor) {
     ComparisonReport report;
     report.seconds = 2.0;

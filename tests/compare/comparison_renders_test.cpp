@@ -31,6 +31,22 @@ TEST(CalibratedSamples, AreTheMedianOfWhatRendersSay) {
     EXPECT_EQ(calibrated_samples(10.0, std::vector<SampleCost>{{0.0, 0.0}}), 1u << 24) << "the most there are";
 }
 
+TEST(CorrectedSamples, TakeTheTimeThatWasMissed) {
+    EXPECT_EQ(corrected_samples(7, 2.45, 4.0), 11u);
+    EXPECT_EQ(corrected_samples(7, 3.3, 4.0), 7u) << "within a fifth";
+    EXPECT_EQ(corrected_samples(1, 9.0, 4.0), 1u) << "no render has less";
+    EXPECT_EQ(corrected_samples(9, 0.0, 4.0), 9u) << "no time tells nothing";
+}
+
+TEST(LeastSeconds, AreThoseOfAllRendersOnTheClock) {
+    RendersRequest request{.budget = {.seconds = 8.0}, .seeds = 3};
+    EXPECT_DOUBLE_EQ(least_seconds(2, request, 4), 12.0) << "8 s of CPU time on four threads, six times";
+    request.budget.by_wall = true;
+    EXPECT_DOUBLE_EQ(least_seconds(2, request, 4), 48.0);
+    request.budget = {.spp = 5};
+    EXPECT_EQ(least_seconds(2, request, 4), 0.0) << "samples take a time that is not known";
+}
+
 }  // namespace
 
 }  // namespace etendue::test

@@ -128,6 +128,81 @@ TEST(ComparisonReport, ATestOfTheWholeImageAloneIsNoAgreement) {
     EXPECT_EQ(pair.verdict(), "no difference seen");
 }
 
+/// A report of errors of two variants over three seeds, whose ratios are 4.
+ComparisonReport two_headline_variants() {
+    ComparisonReport report;
+    report.seeds = 3;
+    report.metrics = {{"relmse", "relMSE", ""}, {"relmse-trimmed", "relMSE, trimmed", ""}};
+    report.variants = {{.name = "path"}, {.name = "bdpt"}};
+    report.variants[0].errors = {{"relmse", {{7.0, 8.0, 9.0}}}, {"relmse-trimmed", {{4.0, 4.0, 4.0}}}};
+    report.variants[1].errors = {{"relmse", {{2.0, 2.0, 2.0}}}, {"relmse-trimmed", {{1.0, 1.0, 1.0}}}};
+    for (VariantReport& variant : report.variants) variant.cpu_seconds.values = {2.0, 2.0, 2.0};
+    report.pairs.push_back({.a = "path",
+                            .b = "bdpt",
+                            .ratios = {{"relmse", {4.0, 3.0, 5.0}},
+                                       {"relmse-trimmed", {4.0, 3.9, 4.1}},
+                                       {"relmse_time", {2.0, 1.6, 2.5}},
+                                       {"relmse-trimmed_time", {2.0, 1.9, 2.1}}}});
+    return report;
+}
+
+TEST(Headline, SaysByHowMuchErrorsDiffer) {
+    ComparisonReport report = two_headline_variants();
+    EXPECT_EQ(report.leading_metric(), "relmse");
+    EXPECT_EQ(headline(report),
+              "bdpt's relMSE is 25% (20% to 33.3%) of path's; bdpt's trimmed relMSE is 25% (24.4% to 25.6%) of path's");
+    report.pairs[0].ratios["relmse"] = {4.0, 0.5, 32.0};
+    EXPECT_TRUE(headline(report).starts_with("bdpt's relMSE is within the seeds' scatter of path's;"))
+        << headline(report);
+}
+
+TEST(Headline, WhatHasNoIntervalIsNoTie) {
+    ComparisonReport report = two_headline_variants();
+    report.pairs[0].no_interval = {{"relmse", "one seed of 3 holds it"}, {"relmse-trimmed", "one seed of 3 holds it"}};
+    for (auto& [key, ratio] : report.pairs[0].ratios) ratio = {.ratio = ratio.ratio};
+    report.variants[0].errors["relmse-trimmed"].values = {10.0, 300.0, 2.0};
+    EXPECT_EQ(report.leading_metric(), "relmse-trimmed");
+    EXPECT_TRUE(
+        headline(report).starts_with("bdpt's trimmed relMSE is 1/104 of path's (no interval: one seed of 3 "
+                                     "holds it; below it in every seed); bdpt's relMSE is 25% of path's"))
+        << headline(report);
+    report.variants[0].errors["relmse-trimmed"].values = {10.0, 300.0, 0.5};
+    EXPECT_NE(headline(report).find("holds it); bdpt's relMSE"), std::string::npos) << headline(report);
+}
+
+TEST(Headline, ErrorsCountTimesTheTimeWhereTimesDiffer) {
+    ComparisonReport report = two_headline_variants();
+    report.variants[1].cpu_seconds.values = {4.0, 4.0, 4.0};
+    EXPECT_EQ(headline(report).find("times differ"), std::string::npos) << "of equal samples they need not be equal";
+    report.seconds = 2.0;
+    EXPECT_TRUE(
+        headline(report).starts_with("times differ by 100%, so errors are multiplied by CPU time: bdpt's relMSE "
+                                     "x CPU time is 50% (40% to 62.5%) of path's; bdpt's trimmed"))
+        << headline(report);
+}
+
+TEST(Headline, SaysWhatTrimmingLeavesOut) {
+    ComparisonReport report = two_headline_variants();
+    report.variants[0].errors["relmse"].values = {40.0, 40.0, 40.0};
+    EXPECT_TRUE(headline(report).ends_with("; trimming leaves out 90.0% of path's relMSE")) << headline(report);
+    report.variants[0].errors["relmse"].values = {1e5, 1e5, 1e5};
+    EXPECT_TRUE(headline(report).ends_with("; trimming leaves out over 99.9% of path's relMSE")) << headline(report);
+}
+
+TEST(Headline, RanksByEfficiencyWithoutAReference) {
+    ComparisonReport report = two_headline_variants();
+    report.metrics.clear();
+    EXPECT_EQ(report.leading_metric(), "");
+    EXPECT_EQ(headline(report), "no errors are known, as there is no reference");
+    report.variants[0].efficiency = 2.0;
+    report.variants[1].efficiency = 142.0;
+    EXPECT_TRUE(
+        headline(report).starts_with("bdpt's efficiency, 1 / (variance x CPU time), is 71 times path's, as far"))
+        << headline(report);
+    report.pairs[0].different_light = "other paths";
+    EXPECT_EQ(headline(report), "no errors are known, as there is no reference");
+}
+
 TEST(ComparisonTables, LeadWithWhatHasIntervals) {
     ComparisonReport report = small_comparison();
     EXPECT_NE(to_tex(report).find("& relMSE & trimmed &"), std::string::npos) << to_tex(report);
@@ -136,6 +211,23 @@ TEST(ComparisonTables, LeadWithWhatHasIntervals) {
     EXPECT_NE(tex.find("& trimmed & trimmed $\\times$ time & relMSE &"), std::string::npos) << tex;
     EXPECT_NE(tex.find("no interval: one seed of 3 holds 90.0\\% of"), std::string::npos) << tex;
     EXPECT_EQ(Json::parse(to_json(report))["pairs"][0]["no_interval"].size(), 1u);
+    EXPECT_EQ(Json::parse(to_json(report))["leading_metric"], "relmse-trimmed");
+}
+
+TEST(ComparisonTables, EachReasonHasItsMark) {
+    ComparisonReport report = two_headline_variants();
+    report.pairs[0].no_interval = {{"relmse", "first"}, {"relmse-trimmed", "second"}, {"relmse_time", "first"}};
+    report.pairs[0].agreement =
+        BlockAgreement{.blocks_agree = true, .means_agree = true, .p_value = 0.998, .tests = 9, .worst = {}};
+    report.variants[0].slopes["relmse-trimmed"] = {.spp = -0.5};
+    const std::string tex = to_tex(report);
+    EXPECT_NE(tex.find("$^{\\dagger}$ no interval: first"), std::string::npos) << tex;
+    EXPECT_NE(tex.find("$^{\\ddagger}$ no interval: second"), std::string::npos) << tex;
+    EXPECT_NE(tex.find("$p > 0.99$"), std::string::npos) << tex;
+    EXPECT_NE(tex.find("& slope of trimmed relMSE"), std::string::npos) << tex;
+    EXPECT_NE(tex.find("$-0.500$"), std::string::npos) << tex;
+    report.pairs[0].no_interval.clear();
+    EXPECT_NE(to_tex(report).find("& slope of relMSE"), std::string::npos) << to_tex(report);
 }
 
 TEST(ComparisonTables, HaveWhatIsKnownWithoutAReference) {
